@@ -1,0 +1,3 @@
+#include "app/json/job_reader.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "app/pipeline/run_job.hpp"
+
+namespace blendwright {}

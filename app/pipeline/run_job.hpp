@@ -1,0 +1,44 @@
+#pragma once
+// JobSpec -> JobResult: one function, no state.
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/pipeline/job.hpp"
+#include "kernel/base/progress.hpp"
+#include "parametric/fit/blend_fit.hpp"
+#include "verify/report/blend_report.hpp"
+
+namespace blendwright {
+
+struct BlendResult {
+  BlendEntry entry;
+  Blend blend;                                  ///< exact
+  BlendFit fit;                                 ///< exported
+  std::array<std::optional<Surface>, 2> primaries;
+  std::vector<BlendReport> stages;              ///< formula, fitted; write_outputs adds step
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0.0;
+};
+
+struct JobResult {
+  JobSpec job;
+  std::vector<std::pair<std::string, Surface>> primaries;
+  std::vector<BlendResult> blends;
+  std::vector<std::string> warnings;
+  std::vector<StageTime> times;
+};
+
+/// Builds, fits and verifies every blend of the job, in memory. Throws InputError (JSON pointers, all problems at
+/// once), GeometryError prefixed with the pointer of the blend, ConvergenceError, Cancelled.
+[[nodiscard]] JobResult run_job(const JobSpec& job, const Progress& progress = {});
+
+/// The surfaces that verify looks at, for a blend at the stage "formula" or "fitted" (or any surface read back).
+[[nodiscard]] BlendUnderTest under_test(const BlendResult& blend, const Surface& surface);
+
+}  // namespace blendwright

@@ -1,0 +1,3 @@
+#include "app/pipeline/write_outputs.hpp"
+
+namespace blendwright {}

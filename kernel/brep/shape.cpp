@@ -1,0 +1,3 @@
+#include "kernel/brep/shape.hpp"
+
+namespace blendwright {}

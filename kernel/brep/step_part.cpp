@@ -1,0 +1,3 @@
+#include "kernel/brep/step_part.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,1 @@
+# install(): libraries, headers and a package that `find_package(blendwright)` finds.

@@ -1,0 +1,3 @@
+#include "kernel/exchange/mesh_files.hpp"
+
+namespace blendwright {}

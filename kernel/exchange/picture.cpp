@@ -1,0 +1,3 @@
+#include "kernel/exchange/picture.hpp"
+
+namespace blendwright {}

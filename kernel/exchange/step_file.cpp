@@ -1,0 +1,3 @@
+#include "kernel/exchange/step_file.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/geometry/bspline.hpp"
+
+namespace blendwright {}

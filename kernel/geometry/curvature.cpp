@@ -1,0 +1,3 @@
+#include "kernel/geometry/curvature.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/geometry/project.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/geometry/rigid_motion.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/geometry/series.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/geometry/spline_interpolation.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/math/dense_solve.hpp"
+
+namespace blendwright {}

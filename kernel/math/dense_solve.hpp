@@ -1,0 +1,24 @@
+#pragma once
+// The only place where dynamic Eigen decompositions are instantiated (they dominate compile time).
+#include <Eigen/Core>
+
+namespace blendwright {
+
+struct LeastSquares {
+  Eigen::MatrixXd x;      ///< n x channels
+  int rank = 0;
+  double condition = 0.0; ///< ratio of largest to smallest singular value
+};
+/// Minimises |A x - b|; A is m x n, b is m x channels.
+[[nodiscard]] LeastSquares least_squares(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& b);
+
+/// Solves A x = b by LU with partial pivoting; throws GeometryError when A is singular to working precision.
+[[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& b);
+
+/// Solves a banded (optionally cyclic) system without pivoting trouble: rows given as bands.
+/// @param bands   n x (lower + 1 + upper); bands(i, k) multiplies unknown i - lower + k
+/// @param cyclic  unknown indices wrap modulo n; else entries outside the matrix must be 0
+[[nodiscard]] Eigen::MatrixXd solve_banded(const Eigen::Ref<const Eigen::MatrixXd>& bands, int lower, bool cyclic,
+                                           const Eigen::Ref<const Eigen::MatrixXd>& b);
+
+}  // namespace blendwright

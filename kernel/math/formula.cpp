@@ -1,0 +1,3 @@
+#include "kernel/math/formula.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "kernel/math/quadrature.hpp"
+
+namespace blendwright {}

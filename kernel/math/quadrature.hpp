@@ -1,0 +1,15 @@
+#pragma once
+// Gauss-Legendre quadrature.
+#include <vector>
+
+#include "kernel/base/units.hpp"
+
+namespace blendwright {
+
+struct QuadratureRule {
+  std::vector<double> x, w;  ///< nodes and weights on [0, 1]
+};
+/// n-point rule, exact for polynomials of degree 2n - 1. n in [1, 64].
+[[nodiscard]] const QuadratureRule& gauss_legendre(int n);
+
+}  // namespace blendwright

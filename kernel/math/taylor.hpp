@@ -1,0 +1,237 @@
+#pragma once
+// Truncated Taylor arithmetic: the one way exact derivatives are made in this library.
+//
+// Taylor<N>   series in one variable:   f(v0 + h) = sum_k c[k] h^k,            k <= N
+// Taylor2<N>  series in two variables:  f(u0 + g, v0 + h) = sum c(i,j) g^i h^j, i + j <= N
+//
+// Coefficients are normalised: c[k] = f^(k)/k!, c(i,j) = f_{u^i v^j}/(i! j!). A formula is written once as a template
+// over its number type and evaluated with double, Taylor or Taylor2. Cost of a product: O(N^2), O(N^4).
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+
+namespace blendwright {
+
+template <int N>
+struct Taylor {
+  static constexpr int order = N;
+  std::array<double, N + 1> c{};
+  constexpr Taylor() = default;
+  constexpr Taylor(double x) { c[0] = x; }  // NOLINT: constants mix freely with series
+  [[nodiscard]] static constexpr Taylor variable(double x) {
+    Taylor t(x);
+    if constexpr (N > 0) t.c[1] = 1.0;
+    return t;
+  }
+  [[nodiscard]] constexpr double value() const { return c[0]; }
+  [[nodiscard]] constexpr double derivative(int k) const {
+    double f = 1.0;
+    for (int i = 2; i <= k; ++i) f *= i;
+    return c[static_cast<std::size_t>(k)] * f;
+  }
+  /// d/dh of the series; the top coefficient of the result is not known and set to 0.
+  [[nodiscard]] constexpr Taylor differentiated() const {
+    Taylor t;
+    for (std::size_t k = 0; k < N; ++k) t.c[k] = static_cast<double>(k + 1) * c[k + 1];
+    return t;
+  }
+  friend constexpr Taylor operator*(const Taylor& a, const Taylor& b) {
+    Taylor r;
+    for (std::size_t i = 0; i <= N; ++i)
+      for (std::size_t j = 0; i + j <= N; ++j) r.c[i + j] += a.c[i] * b.c[j];
+    return r;
+  }
+};
+
+template <int N>
+struct Taylor2 {
+  static constexpr int order = N;
+  static constexpr std::size_t size = (N + 1) * (N + 2) / 2;
+  std::array<double, size> c{};  ///< ordered by total degree, then by j: index(i, j)
+  [[nodiscard]] static constexpr std::size_t index(int i, int j) {
+    return static_cast<std::size_t>((i + j) * (i + j + 1) / 2 + j);
+  }
+  constexpr Taylor2() = default;
+  constexpr Taylor2(double x) { c[0] = x; }  // NOLINT: constants mix freely with series
+  [[nodiscard]] static constexpr Taylor2 u_variable(double x) {
+    Taylor2 t(x);
+    if constexpr (N > 0) t.c[1] = 1.0;
+    return t;
+  }
+  [[nodiscard]] static constexpr Taylor2 v_variable(double x) {
+    Taylor2 t(x);
+    if constexpr (N > 0) t.c[2] = 1.0;
+    return t;
+  }
+  [[nodiscard]] constexpr double value() const { return c[0]; }
+  [[nodiscard]] constexpr double derivative(int i, int j) const {
+    double f = 1.0;
+    for (int k = 2; k <= i; ++k) f *= k;
+    for (int k = 2; k <= j; ++k) f *= k;
+    return c[index(i, j)] * f;
+  }
+  friend constexpr Taylor2 operator*(const Taylor2& a, const Taylor2& b) {
+    Taylor2 r;
+    for (int da = 0; da <= N; ++da)
+      for (int ja = 0; ja <= da; ++ja) {
+        const double x = a.c[index(da - ja, ja)];
+        if (x == 0.0) continue;
+        for (int db = 0; da + db <= N; ++db)
+          for (int jb = 0; jb <= db; ++jb) r.c[index(da - ja + db - jb, ja + jb)] += x * b.c[index(db - jb, jb)];
+      }
+    return r;
+  }
+};
+
+template <class T>
+concept TaylorSeries = requires(const T& t) {
+  T::order;
+  t.c;
+  { t.value() } -> std::convertible_to<double>;
+};
+
+template <TaylorSeries T>
+constexpr T operator+(T a, const T& b) {
+  for (std::size_t k = 0; k < a.c.size(); ++k) a.c[k] += b.c[k];
+  return a;
+}
+template <TaylorSeries T>
+constexpr T operator-(T a, const T& b) {
+  for (std::size_t k = 0; k < a.c.size(); ++k) a.c[k] -= b.c[k];
+  return a;
+}
+template <TaylorSeries T>
+constexpr T operator-(T a) {
+  for (double& x : a.c) x = -x;
+  return a;
+}
+template <TaylorSeries T>
+constexpr T operator+(T a, double b) { a.c[0] += b; return a; }
+template <TaylorSeries T>
+constexpr T operator+(double a, T b) { b.c[0] += a; return b; }
+template <TaylorSeries T>
+constexpr T operator-(T a, double b) { a.c[0] -= b; return a; }
+template <TaylorSeries T>
+constexpr T operator-(double a, const T& b) { return a + (-b); }
+template <TaylorSeries T>
+constexpr T operator*(T a, double b) {
+  for (double& x : a.c) x *= b;
+  return a;
+}
+template <TaylorSeries T>
+constexpr T operator*(double a, T b) { return b * a; }
+
+/// f(a) for a series a, given the derivatives f^(k)(a0)/k! in `f` (k = 0..N): Horner in the nilpotent part of a.
+template <TaylorSeries T>
+constexpr T compose_scalar(const std::array<double, T::order + 1>& f, T a) {
+  a.c[0] = 0.0;
+  T r(f[T::order]);
+  for (int k = T::order - 1; k >= 0; --k) r = r * a + f[static_cast<std::size_t>(k)];
+  return r;
+}
+
+template <TaylorSeries T>
+T reciprocal(const T& a) {
+  std::array<double, T::order + 1> f{};
+  f[0] = 1.0 / a.value();
+  for (std::size_t k = 1; k < f.size(); ++k) f[k] = -f[k - 1] * f[0];
+  return compose_scalar(f, a);
+}
+template <TaylorSeries T>
+T operator/(const T& a, const T& b) { return a * reciprocal(b); }
+template <TaylorSeries T>
+T operator/(const T& a, double b) { return a * (1.0 / b); }
+template <TaylorSeries T>
+T operator/(double a, const T& b) { return reciprocal(b) * a; }
+
+template <TaylorSeries T>
+T exp(const T& a) {
+  std::array<double, T::order + 1> f{};
+  f[0] = std::exp(a.value());
+  for (std::size_t k = 1; k < f.size(); ++k) f[k] = f[k - 1] / static_cast<double>(k);
+  return compose_scalar(f, a);
+}
+template <TaylorSeries T>
+T log(const T& a) {
+  std::array<double, T::order + 1> f{};
+  f[0] = std::log(a.value());
+  double p = 1.0;
+  for (std::size_t k = 1; k < f.size(); ++k) {
+    p /= a.value();
+    f[k] = (k % 2 == 1 ? p : -p) / static_cast<double>(k);
+  }
+  return compose_scalar(f, a);
+}
+/// a^p for a real exponent p; a > 0 unless p is a whole number >= 0.
+template <TaylorSeries T>
+T pow(const T& a, double p) {
+  std::array<double, T::order + 1> f{};
+  double binomial = 1.0;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const double e = p - static_cast<double>(k);
+    f[k] = binomial == 0.0 ? 0.0 : binomial * std::pow(a.value(), e);
+    binomial *= e / static_cast<double>(k + 1);
+  }
+  return compose_scalar(f, a);
+}
+template <TaylorSeries T>
+T pow(const T& a, const T& b) { return exp(b * log(a)); }
+template <TaylorSeries T>
+T sqrt(const T& a) { return pow(a, 0.5); }
+
+/// Builds f from its first four derivatives repeating with sign: sin, cos (s = -1), sinh, cosh (s = +1).
+template <TaylorSeries T>
+T compose_periodic(double f0, double f1, double s, const T& a) {
+  std::array<double, T::order + 1> f{};
+  double factorial = 1.0;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (k > 0) factorial *= static_cast<double>(k);
+    const double sign = (k / 2) % 2 == 1 ? s : 1.0;
+    f[k] = sign * (k % 2 == 0 ? f0 : f1) / factorial;
+  }
+  return compose_scalar(f, a);
+}
+template <TaylorSeries T>
+T sin(const T& a) { return compose_periodic(std::sin(a.value()), std::cos(a.value()), -1.0, a); }
+template <TaylorSeries T>
+T cos(const T& a) { return compose_periodic(std::cos(a.value()), -std::sin(a.value()), -1.0, a); }
+template <TaylorSeries T>
+T sinh(const T& a) { return compose_periodic(std::sinh(a.value()), std::cosh(a.value()), 1.0, a); }
+template <TaylorSeries T>
+T cosh(const T& a) { return compose_periodic(std::cosh(a.value()), std::sinh(a.value()), 1.0, a); }
+template <TaylorSeries T>
+T tan(const T& a) { return sin(a) / cos(a); }
+template <TaylorSeries T>
+T tanh(const T& a) {
+  const T e = exp(a * (a.value() > 0 ? -2.0 : 2.0));
+  return (a.value() > 0 ? 1.0 : -1.0) * ((1.0 - e) / (1.0 + e));
+}
+template <TaylorSeries T>
+T abs(const T& a) { return a.value() < 0 ? -a : a; }
+
+/// Solves g(r) = a for r by Newton on series, starting from the exact constant term r0: each step doubles the order.
+template <TaylorSeries T, class G, class DG>
+T invert_function(double r0, const T& a, G g, DG dg) {
+  T r(r0);
+  for (int known = 1; known <= T::order; known *= 2) r = r - (g(r) - a) / dg(r);
+  r.c[0] = r0;
+  return r;
+}
+template <TaylorSeries T>
+T atan2(const T& y, const T& x) {
+  // r = angle of (x, y) = a0 + atan(t), t = tangent of the angle turned away from the constant term.
+  const double a0 = std::atan2(y.value(), x.value());
+  const T t = (y * std::cos(a0) - x * std::sin(a0)) / (x * std::cos(a0) + y * std::sin(a0));
+  const T angle = invert_function(0.0, t, [](const T& r) { return tan(r); },
+                                  [](const T& r) { const T q = tan(r); return 1.0 + q * q; });
+  return a0 + angle;
+}
+template <TaylorSeries T>
+T atan(const T& a) { return atan2(a, T(1.0)); }
+template <TaylorSeries T>
+T asin(const T& a) { return atan2(a, sqrt(1.0 - a * a)); }
+template <TaylorSeries T>
+T acos(const T& a) { return atan2(sqrt(1.0 - a * a), a); }
+
+}  // namespace blendwright

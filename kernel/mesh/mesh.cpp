@@ -1,0 +1,3 @@
+#include "kernel/mesh/mesh.hpp"
+
+namespace blendwright {}

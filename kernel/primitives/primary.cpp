@@ -1,0 +1,3 @@
+#include "kernel/primitives/primary.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "parametric/blend.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "parametric/cross_tangent/cross_tangent.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "parametric/fit/blend_fit.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "parametric/ode/cardinal_basis.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "parametric/ode/ode_blend.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "parametric/ode/sweep_ode.hpp"
+
+namespace blendwright {}

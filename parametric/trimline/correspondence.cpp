@@ -1,0 +1,3 @@
+#include "parametric/trimline/correspondence.hpp"
+
+namespace blendwright {}

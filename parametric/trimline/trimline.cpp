@@ -1,0 +1,3 @@
+#include "parametric/trimline/trimline.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "verify/continuity/seam.hpp"
+
+namespace blendwright {}

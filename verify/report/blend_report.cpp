@@ -1,0 +1,3 @@
+#include "verify/report/blend_report.hpp"
+
+namespace blendwright {}

@@ -1,0 +1,3 @@
+#include "verify/surface/surface_checks.hpp"
+
+namespace blendwright {}
