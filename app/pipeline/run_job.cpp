@@ -1,3 +1,186 @@
 #include "app/pipeline/run_job.hpp"
 
-namespace blendwright {}
+#include <algorithm>
+#include <chrono>
+
+#include "app/pipeline/build_primaries.hpp"
+#include "kernel/base/number_text.hpp"
+
+namespace blendwright {
+namespace {
+
+constexpr std::array<const char*, 2> side_names{"from", "to"};
+
+/// Seconds since construction or the last lap.
+class StopWatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double s = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return s;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+const BuiltPrimary* find(const std::vector<BuiltPrimary>& primaries, const std::string& name) {
+  const auto it =
+      std::find_if(primaries.begin(), primaries.end(), [&](const BuiltPrimary& p) { return p.name == name; });
+  return it == primaries.end() ? nullptr : &*it;
+}
+
+/// The trimlines of a blend's two sides; problems of both sides are reported together.
+std::array<std::optional<BuiltTrimline>, 2> build_trimlines(const BlendEntry& entry, const JobSpec& job,
+                                                            const std::vector<BuiltPrimary>& primaries,
+                                                            const std::string& pointer) {
+  std::array<std::optional<BuiltTrimline>, 2> lines;
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const BlendSideEntry& side = entry.sides[i];
+    if (!side.trimline) continue;
+    const std::string where = pointer + "/" + side_names[i];
+    try {
+      const BuiltPrimary* primary = find(primaries, side.primary);
+      if (!primary) throw InputError(where + "/primary", "there is no primary \"" + side.primary + "\"");
+      lines[i] = build_trimline(*side.trimline, *primary, job.constants, where + "/trimline");
+    } catch (const InputError& e) {
+      problems.insert(problems.end(), e.problems().begin(), e.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return lines;
+}
+
+Blend build_literal(const BlendEntry& entry, const JobSpec& job, std::array<std::optional<Trimline>, 2> lines,
+                    const std::string& pointer) {
+  const CurveDomain domain = entry.v.value_or(CurveDomain{{0.0, 1.0}, false});
+  std::vector<EndCondition> ends;
+  for (std::size_t i = 0; i < 2; ++i) {
+    try {
+      ends.push_back(literal_end(*entry.sides[i].literal, domain, job.constants));
+    } catch (const InputError& e) {
+      throw e.under(pointer + "/" + side_names[i]);
+    }
+    ends[i].continuity = entry.sides[i].side.continuity;
+  }
+  return make_literal_blend(ends[0], ends[1], entry.shape, std::move(lines));
+}
+
+/// Builder errors name a side as "sides/0/..."; a job says "from" and "to".
+std::string job_where(std::string where) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string index = "sides/" + std::to_string(i);
+    if (where.rfind(index, 0) == 0) where = side_names[i] + where.substr(index.size());
+  }
+  return where;
+}
+
+Blend build_blend(const BlendEntry& entry, const JobSpec& job, const std::vector<BuiltPrimary>& primaries,
+                  std::vector<std::string>& warnings) {
+  const std::string pointer = "/blends/" + entry.name;
+  try {
+    auto lines = build_trimlines(entry, job, primaries, pointer);
+    if (entry.literal()) {
+      std::array<std::optional<Trimline>, 2> on_v;
+      for (std::size_t i = 0; i < 2; ++i)
+        if (lines[i]) on_v[i] = lines[i]->line;
+      return build_literal(entry, job, std::move(on_v), pointer);
+    }
+    BlendSpec spec{{entry.sides[0].side, entry.sides[1].side}, entry.correspondence, entry.shape};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (spec.sides[i].keep == SideSpec::Keep::automatic && lines[i]->keep)
+        spec.sides[i].keep = *lines[i]->keep;
+      if (lines[i]->edge_deviation > job.tolerance.position)
+        warnings.push_back(pointer + "/" + side_names[i] + "/trimline: the part's edge is up to " +
+                           number_text(lines[i]->edge_deviation, 3) + " " + name(job.unit) +
+                           " away from its face; the blend starts on the face");
+    }
+    return make_blend(lines[0]->line, lines[1]->line, spec, job.tolerance.position);
+  } catch (const InputError& e) {
+    std::vector<Problem> problems = e.problems();
+    for (Problem& p : problems)
+      if (p.where.empty() || p.where.front() != '/')
+        p.where = pointer + (p.where.empty() ? "" : "/") + job_where(p.where);
+    throw InputError(std::move(problems));
+  } catch (const GeometryError& e) {
+    const std::string text = e.what();
+    throw GeometryError(text.rfind("/blends/", 0) == 0 ? text : pointer + ": " + text);
+  }
+}
+
+/// The fit spends a tenth of the tolerance, so that files and re-reading have the rest.
+BlendFitOptions fit_options(const Tolerance& tolerance) {
+  BlendFitOptions options;
+  options.position = 0.1 * tolerance.position;
+  options.angle = Radians(0.1 * tolerance.angle.value);
+  options.curvature = 0.1 * tolerance.curvature;
+  return options;
+}
+
+}  // namespace
+
+BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
+  const auto seam = [&](std::size_t i) {
+    Seam s{result.entry.name + "/" + side_names[i],
+           surface,
+           static_cast<int>(i),
+           result.primaries[i],
+           std::nullopt,
+           true};
+    const auto& line = result.blend.trimlines[i];
+    if (!line) return s;
+    s.pcurve = line->pcurve();
+    if (result.blend.tangents) {
+      s.kept_left = result.blend.tangents->kept_left[i];
+    } else {  // literal data: T0 leaves the kept part, T1 enters it, by definition
+      const CurveDomain range = line->domain();
+      const double v = range.v.at(0.377);
+      const CurveJet<2> at = line->pcurve().jet(v);
+      const SurfaceJet P = line->primary().jet({at.C()[0], at.C()[1]});
+      const Vec3 k = P.Su.cross(P.Sv).cross(line->jet(v).C1());
+      const double out = k.dot(derivative(result.blend.surface.end(static_cast<int>(i)).series(v).T, 0));
+      s.kept_left = (i == 0) == (out < 0.0);
+    }
+    return s;
+  };
+  return {result.entry.name, surface, {seam(0), seam(1)}, result.blend.surface.domain().v_closed};
+}
+
+JobResult run_job(const JobSpec& job, const Progress& progress) {
+  JobResult result;
+  result.job = job;
+  StopWatch watch;
+  progress.at(0.0, "building the primaries");
+  const std::vector<BuiltPrimary> primaries = build_primaries(job);
+  for (const BuiltPrimary& p : primaries) result.primaries.emplace_back(p.name, p.surface);
+  result.times.push_back({"primaries", watch.lap()});
+
+  double build = 0.0, fit = 0.0, verify = 0.0;
+  for (std::size_t i = 0; i < job.blends.size(); ++i) {
+    const BlendEntry& entry = job.blends[i];
+    const double done = static_cast<double>(i) / static_cast<double>(job.blends.size());
+    const auto stage = [&](const char* doing) { progress.at(done, std::string(doing) + " " + entry.name); };
+    stage("building");
+    watch.lap();
+    Blend blend = build_blend(entry, job, primaries, result.warnings);
+    for (const std::string& w : blend.warnings) result.warnings.push_back("/blends/" + entry.name + ": " + w);
+    build += watch.lap();
+    stage("fitting");
+    BlendFit fitted = fit_blend(blend.surface, fit_options(job.tolerance), Progress{.stop = progress.stop});
+    fit += watch.lap();
+    stage("verifying");
+    BlendResult r{entry, std::move(blend), std::move(fitted), {}, {}};
+    for (std::size_t s = 0; s < 2; ++s)
+      if (r.blend.trimlines[s]) r.primaries[s] = r.blend.trimlines[s]->primary();
+    r.stages.push_back(verify_blend(under_test(r, r.blend.surface), "formula"));
+    r.stages.push_back(verify_blend(under_test(r, r.fit.surface), "fitted"));
+    verify += watch.lap();
+    result.blends.push_back(std::move(r));
+  }
+  result.times.insert(result.times.end(), {{"building", build}, {"fitting", fit}, {"verifying", verify}});
+  return result;
+}
+
+}  // namespace blendwright

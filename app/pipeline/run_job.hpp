@@ -15,10 +15,10 @@ namespace blendwright {
 
 struct BlendResult {
   BlendEntry entry;
-  Blend blend;                                  ///< exact
-  BlendFit fit;                                 ///< exported
+  Blend blend;   ///< exact
+  BlendFit fit;  ///< exported
   std::array<std::optional<Surface>, 2> primaries;
-  std::vector<BlendReport> stages;              ///< formula, fitted; write_outputs adds step
+  std::vector<BlendReport> stages;  ///< formula, fitted; write_outputs adds step
 };
 
 struct StageTime {
@@ -34,11 +34,12 @@ struct JobResult {
   std::vector<StageTime> times;
 };
 
-/// Builds, fits and verifies every blend of the job, in memory. Throws InputError (JSON pointers, all problems at
-/// once), GeometryError prefixed with the pointer of the blend, ConvergenceError, Cancelled.
+/// Builds, fits and verifies every blend of the job, in memory. Throws InputError (JSON pointers, all
+/// problems at once), GeometryError prefixed with the pointer of the blend, ConvergenceError, Cancelled.
 [[nodiscard]] JobResult run_job(const JobSpec& job, const Progress& progress = {});
 
-/// The surfaces that verify looks at, for a blend at the stage "formula" or "fitted" (or any surface read back).
+/// The surfaces that verify looks at, for a blend at the stage "formula" or "fitted" (or any surface read
+/// back).
 [[nodiscard]] BlendUnderTest under_test(const BlendResult& blend, const Surface& surface);
 
 }  // namespace blendwright

@@ -11,24 +11,25 @@ namespace blendwright {
 
 struct WrittenFile {
   std::filesystem::path path;
-  std::string kind;              ///< "step", "vtp", "png", "stl", "obj", "report"
+  std::string kind;  ///< "step", "vtp", "png", "stl", "obj", "report"
   std::size_t bytes = 0;
 };
 
 struct JobOutputs {
   std::vector<WrittenFile> files;
-  std::optional<StepContent> step;           ///< as read back
-  std::vector<std::string> notes;            ///< e.g. "pictures skipped: no X display and Xvfb is not installed"
+  std::optional<StepContent> step;  ///< as read back
+  std::vector<std::string> notes;   ///< e.g. "pictures skipped: no X display and Xvfb is not installed"
 };
 
 struct WriteOptions {
   std::filesystem::path folder = "out";
-  bool overwrite = false;                    ///< false: an existing file of a result's name is an IoError before any writing
+  bool overwrite = false;  ///< false: an existing file of a result's name is an IoError before any writing
 };
 
-/// Writes the formats the job asks for and report.json ("<name>.report.json"); each file under a temporary name first.
-/// Adds the stage "step" to `result`. Throws IoError, leaving no half-written file.
-[[nodiscard]] JobOutputs write_outputs(JobResult& result, const WriteOptions& options, const Progress& progress = {});
+/// Writes the formats the job asks for and report.json ("<name>.report.json"); each file under a temporary
+/// name first. Adds the stage "step" to `result`. Throws IoError, leaving no half-written file.
+[[nodiscard]] JobOutputs write_outputs(JobResult& result, const WriteOptions& options,
+                                       const Progress& progress = {});
 
 /// True when every blend reaches what was asked of it at its last measured stage, and the shape checks pass.
 [[nodiscard]] bool verified(const JobResult& result, const JobOutputs* outputs = nullptr);

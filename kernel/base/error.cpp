@@ -14,7 +14,8 @@ std::string sentence(const std::vector<Problem>& problems) {
 
 }  // namespace
 
-InputError::InputError(std::vector<Problem> problems) : Error(sentence(problems)), problems_(std::move(problems)) {}
+InputError::InputError(std::vector<Problem> problems)
+    : Error(sentence(problems)), problems_(std::move(problems)) {}
 
 InputError InputError::under(const std::string& prefix) const {
   std::vector<Problem> moved = problems_;

@@ -34,8 +34,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string number_text(double x) { return text(x); }
-std::string number_text(double x, int significant) { return text(x, std::chars_format::general, significant); }
-std::string scientific_text(double x, int digits) { return text(x, std::chars_format::scientific, digits - 1); }
+std::string number_text(double x, int significant) {
+  return text(x, std::chars_format::general, significant);
+}
+std::string scientific_text(double x, int digits) {
+  return text(x, std::chars_format::scientific, digits - 1);
+}
 
 std::string hash_text(std::string_view bytes) {
   std::uint64_t h = 14695981039346656037ull;

@@ -5,10 +5,11 @@
 
 namespace blendwright {
 
-/// Calls body(begin, end) for disjoint chunks of at most `grain` that cover [0, count), on all cores. Chunks depend
-/// on count and grain only, so results that are written by index are the same bytes for any number of threads.
-/// An exception thrown by a chunk is rethrown here.
-void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+/// Calls body(begin, end) for disjoint chunks of at most `grain` that cover [0, count), on all cores. Chunks
+/// depend on count and grain only, so results that are written by index are the same bytes for any number of
+/// threads. An exception thrown by a chunk is rethrown here.
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body);
 
 /// Limits the number of threads while it lives (1 = serial). The default is the number of cores.
 class ThreadLimit {

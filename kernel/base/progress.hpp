@@ -1,6 +1,6 @@
 #pragma once
-// How long calls report and stop: one thread calls `report` with a monotone fraction; a stop request surfaces as
-// Cancelled at the next poll, and no half-built value escapes.
+// How long calls report and stop: one thread calls `report` with a monotone fraction; a stop request surfaces
+// as Cancelled at the next poll, and no half-built value escapes.
 #include <functional>
 #include <stop_token>
 #include <string_view>

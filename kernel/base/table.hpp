@@ -1,6 +1,6 @@
 #pragma once
-// Rows of the family tables (primaries, magnitude rules, exporters, checks, verbs). The job reader, `list`, --help,
-// the schema, the documentation and the parametrised tests all read these rows, in their order.
+// Rows of the family tables (primaries, magnitude rules, exporters, checks, verbs). The job reader, `list`,
+// --help, the schema, the documentation and the parametrised tests all read these rows, in their order.
 #include <limits>
 #include <string_view>
 

@@ -9,7 +9,8 @@ namespace blendwright {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
-/// An angle. Radians everywhere inside; degrees exist only in job keys ending in _deg, in flags and in reports.
+/// An angle. Radians everywhere inside; degrees exist only in job keys ending in _deg, in flags and in
+/// reports.
 struct Radians {
   double value = 0.0;
   constexpr Radians() = default;
@@ -31,7 +32,9 @@ struct Interval {
   [[nodiscard]] constexpr double length() const { return hi - lo; }
   [[nodiscard]] constexpr double at(double t) const { return lo + t * (hi - lo); }  ///< t in [0, 1]
   [[nodiscard]] constexpr double middle() const { return 0.5 * (lo + hi); }
-  [[nodiscard]] constexpr bool contains(double x, double slack = 0.0) const { return x >= lo - slack && x <= hi + slack; }
+  [[nodiscard]] constexpr bool contains(double x, double slack = 0.0) const {
+    return x >= lo - slack && x <= hi + slack;
+  }
   [[nodiscard]] constexpr double clamp(double x) const { return x < lo ? lo : (x > hi ? hi : x); }
   bool operator==(const Interval&) const = default;
 };
@@ -44,8 +47,8 @@ enum class Continuity { none = -1, G0 = 0, G1 = 1, G2 = 2 };
 [[nodiscard]] const char* name(Continuity c);
 [[nodiscard]] const char* name(LengthUnit u);  ///< "mm", "cm", "m", "in"
 
-/// What counts as continuous. position: model units. angle: between tangent planes. curvature: |k_blend - k_primary|
-/// of the normal curvature across the trimline, 1/model unit.
+/// What counts as continuous. position: model units. angle: between tangent planes. curvature: |k_blend -
+/// k_primary| of the normal curvature across the trimline, 1/model unit.
 struct Tolerance {
   double position = 1e-6;
   Radians angle = degrees(1e-3);

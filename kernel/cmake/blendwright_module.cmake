@@ -1,6 +1,6 @@
 # One helper for libraries, so that a module's CMakeLists is a list of files.
 #
-#   blendwright_module(name LINK ... PRIVATE_LINK ...)   declares the static library blendwright::name
+#   blendwright_module(name COMPONENT core|exchange LINK ... PRIVATE_LINK ...)   declares the static library blendwright::name
 #   blendwright_sources(name PUBLIC a.hpp ... SOURCES a.cpp ...)   adds files, from any folder below
 #
 # PUBLIC headers are installed and must compile alone; any other header is private.
@@ -21,7 +21,7 @@ if(BLENDWRIGHT_SANITIZE)
 endif()
 
 function(blendwright_module name)
-  cmake_parse_arguments(M "" "" "LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(M "" "COMPONENT" "LINK;PRIVATE_LINK" ${ARGN})
   add_library(blendwright_${name} STATIC)
   add_library(blendwright::${name} ALIAS blendwright_${name})
   target_compile_features(blendwright_${name} PUBLIC cxx_std_20)
@@ -30,7 +30,8 @@ function(blendwright_module name)
   target_link_libraries(blendwright_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE_LINK} $<BUILD_INTERFACE:blendwright_flags>)
   set_target_properties(blendwright_${name} PROPERTIES
     EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON)
-  install(TARGETS blendwright_${name} EXPORT blendwright
+  target_sources(blendwright_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR})  # named before install()
+  install(TARGETS blendwright_${name} EXPORT blendwright_${M_COMPONENT}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS DESTINATION include/blendwright)
 endfunction()
 

@@ -1,0 +1,48 @@
+#include "app/pipeline/result_pictures.hpp"
+
+#include <algorithm>
+
+#include "kernel/base/number_text.hpp"
+
+namespace blendwright {
+
+Picture error_picture(const JobResult& result, const std::vector<TriMesh>& blends,
+                      const std::vector<TriMesh>& primaries, const std::vector<PolyLine>& lines) {
+  const std::string unit = name(result.job.unit);
+  double gap = 0.0, angle = 0.0;
+  for (const BlendResult& b : result.blends)
+    for (const SeamReport& s : b.stages.back().seams) {
+      gap = std::max(gap, s.gap.worst);
+      angle = std::max(angle, Radians(s.angle.worst).degrees());
+    }
+  Picture picture;
+  picture.title = result.job.name + ": largest gap " + scientific_text(gap) + " " + unit +
+                  ", largest angle " + scientific_text(angle) + " deg";
+  picture.column = "gap";
+  picture.bar_title = "gap (" + unit + ")";
+  picture.logarithmic = true;
+  for (const TriMesh& mesh : primaries) picture.meshes.push_back({mesh, {0.72, 0.75, 0.80}, 1.0, false});
+  for (const TriMesh& mesh : blends) picture.meshes.push_back({mesh, {0.90, 0.55, 0.15}, 1.0, true});
+  picture.lines = lines;
+  return picture;
+}
+
+std::vector<Plot> error_plots(const JobResult& result) {
+  const std::string unit = name(result.job.unit);
+  const Tolerance& tolerance = result.job.tolerance;
+  std::vector<Plot> plots{
+      {"gap", "v", "gap (" + unit + ")", {}, true, tolerance.position},
+      {"angle between tangent planes", "v", "angle (deg)", {}, true, tolerance.angle.degrees()},
+      {"normal curvature jump", "v", "jump (1/" + unit + ")", {}, true, tolerance.curvature}};
+  for (const BlendResult& blend : result.blends)
+    for (const SeamReport& seam : blend.stages.back().seams) {
+      std::vector<double> degrees_at;
+      for (const double a : seam.angle_at) degrees_at.push_back(Radians(a).degrees());
+      plots[0].curves.push_back({seam.name, seam.v, seam.gap_at});
+      plots[1].curves.push_back({seam.name, seam.v, degrees_at});
+      plots[2].curves.push_back({seam.name, seam.v, seam.curvature_at});
+    }
+  return plots;
+}
+
+}  // namespace blendwright
