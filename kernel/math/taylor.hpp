@@ -4,8 +4,9 @@
 // Taylor<N>   series in one variable:   f(v0 + h) = sum_k c[k] h^k,            k <= N
 // Taylor2<N>  series in two variables:  f(u0 + g, v0 + h) = sum c(i,j) g^i h^j, i + j <= N
 //
-// Coefficients are normalised: c[k] = f^(k)/k!, c(i,j) = f_{u^i v^j}/(i! j!). A formula is written once as a template
-// over its number type and evaluated with double, Taylor or Taylor2. Cost of a product: O(N^2), O(N^4).
+// Coefficients are normalised: c[k] = f^(k)/k!, c(i,j) = f_{u^i v^j}/(i! j!). A formula is written once as a
+// template over its number type and evaluated with double, Taylor or Taylor2. Cost of a product: O(N^2),
+// O(N^4).
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -73,13 +74,20 @@ struct Taylor2 {
   }
   friend constexpr Taylor2 operator*(const Taylor2& a, const Taylor2& b) {
     Taylor2 r;
-    for (int da = 0; da <= N; ++da)
-      for (int ja = 0; ja <= da; ++ja) {
-        const double x = a.c[index(da - ja, ja)];
-        if (x == 0.0) continue;
-        for (int db = 0; da + db <= N; ++db)
-          for (int jb = 0; jb <= db; ++jb) r.c[index(da - ja + db - jb, ja + jb)] += x * b.c[index(db - jb, jb)];
-      }
+    if constexpr (N == 2) {  // written out: the product inside every jet
+      r.c[0] = a.c[0] * b.c[0];
+      r.c[1] = a.c[0] * b.c[1] + a.c[1] * b.c[0];
+      r.c[2] = a.c[0] * b.c[2] + a.c[2] * b.c[0];
+      r.c[3] = a.c[0] * b.c[3] + a.c[1] * b.c[1] + a.c[3] * b.c[0];
+      r.c[4] = a.c[0] * b.c[4] + a.c[1] * b.c[2] + a.c[2] * b.c[1] + a.c[4] * b.c[0];
+      r.c[5] = a.c[0] * b.c[5] + a.c[2] * b.c[2] + a.c[5] * b.c[0];
+    } else {
+      for (int da = 0; da <= N; ++da)
+        for (int ja = 0; ja <= da; ++ja)
+          for (int db = 0; da + db <= N; ++db)
+            for (int jb = 0; jb <= db; ++jb)
+              r.c[index(da - ja + db - jb, ja + jb)] += a.c[index(da - ja, ja)] * b.c[index(db - jb, jb)];
+    }
     return r;
   }
 };
@@ -107,27 +115,70 @@ constexpr T operator-(T a) {
   return a;
 }
 template <TaylorSeries T>
-constexpr T operator+(T a, double b) { a.c[0] += b; return a; }
+constexpr T operator+(T a, double b) {
+  a.c[0] += b;
+  return a;
+}
 template <TaylorSeries T>
-constexpr T operator+(double a, T b) { b.c[0] += a; return b; }
+constexpr T operator+(double a, T b) {
+  b.c[0] += a;
+  return b;
+}
 template <TaylorSeries T>
-constexpr T operator-(T a, double b) { a.c[0] -= b; return a; }
+constexpr T operator-(T a, double b) {
+  a.c[0] -= b;
+  return a;
+}
 template <TaylorSeries T>
-constexpr T operator-(double a, const T& b) { return a + (-b); }
+constexpr T operator-(double a, const T& b) {
+  return a + (-b);
+}
 template <TaylorSeries T>
 constexpr T operator*(T a, double b) {
   for (double& x : a.c) x *= b;
   return a;
 }
 template <TaylorSeries T>
-constexpr T operator*(double a, T b) { return b * a; }
+constexpr T operator*(double a, T b) {
+  return b * a;
+}
 
-/// f(a) for a series a, given the derivatives f^(k)(a0)/k! in `f` (k = 0..N): Horner in the nilpotent part of a.
+/// a b that takes 0 * infinity as 0 for a coefficient 0 of a.
+template <int N>
+constexpr Taylor<N> sparse_product(const Taylor<N>& a, const Taylor<N>& b) {
+  Taylor<N> r;
+  for (std::size_t i = 0; i <= N; ++i)
+    for (std::size_t j = 0; a.c[i] != 0.0 && i + j <= N; ++j)
+      if (b.c[j] != 0.0) r.c[i + j] += a.c[i] * b.c[j];
+  return r;
+}
+template <int N>
+constexpr Taylor2<N> sparse_product(const Taylor2<N>& a, const Taylor2<N>& b) {
+  Taylor2<N> r;
+  for (int da = 0; da <= N; ++da)
+    for (int ja = 0; ja <= da; ++ja) {
+      const double x = a.c[a.index(da - ja, ja)];
+      for (int db = 0; x != 0.0 && da + db <= N; ++db)
+        for (int jb = 0; jb <= db; ++jb) {
+          const double y = b.c[b.index(db - jb, jb)];
+          if (y != 0.0) r.c[r.index(da - ja + db - jb, ja + jb)] += x * y;
+        }
+    }
+  return r;
+}
+
+/// f(a) for a series a, given the derivatives f^(k)(a0)/k! in `f` (k = 0..N): Horner in the nilpotent part of
+/// a. Where f has an infinite derivative (a^1.5 at a0 = 0), only the coefficients that it enters are infinite
+/// or NaN.
 template <TaylorSeries T>
 constexpr T compose_scalar(const std::array<double, T::order + 1>& f, T a) {
   a.c[0] = 0.0;
   T r(f[T::order]);
-  for (int k = T::order - 1; k >= 0; --k) r = r * a + f[static_cast<std::size_t>(k)];
+  const bool finite = f[T::order] - f[T::order] == 0.0;
+  for (int k = T::order - 1; k >= 0; --k) {
+    r = finite ? a * r : sparse_product(a, r);
+    r.c[0] = f[static_cast<std::size_t>(k)];
+  }
   return r;
 }
 
@@ -139,11 +190,18 @@ T reciprocal(const T& a) {
   return compose_scalar(f, a);
 }
 template <TaylorSeries T>
-T operator/(const T& a, const T& b) { return a * reciprocal(b); }
+T operator/(const T& a, const T& b) {
+  return a * reciprocal(b);
+}
 template <TaylorSeries T>
-T operator/(const T& a, double b) { return a * (1.0 / b); }
+T operator/(T a, double b) {
+  for (double& x : a.c) x /= b;
+  return a;
+}
 template <TaylorSeries T>
-T operator/(double a, const T& b) { return reciprocal(b) * a; }
+T operator/(double a, const T& b) {
+  return reciprocal(b) * a;
+}
 
 template <TaylorSeries T>
 T exp(const T& a) {
@@ -163,22 +221,36 @@ T log(const T& a) {
   }
   return compose_scalar(f, a);
 }
-/// a^p for a real exponent p; a > 0 unless p is a whole number >= 0.
+/// a^p for a real exponent p; a > 0, or a >= 0 where p is not whole and positive (derivatives beyond p
+/// infinite at 0), or any a where p is a whole number >= 0 (exact at a = 0 too), or any a != 0 where p is a
+/// whole number < 0.
 template <TaylorSeries T>
 T pow(const T& a, double p) {
   std::array<double, T::order + 1> f{};
   double binomial = 1.0;
-  for (std::size_t k = 0; k < f.size(); ++k) {
+  for (std::size_t k = 0; k < f.size() && binomial != 0.0; ++k) {
     const double e = p - static_cast<double>(k);
-    f[k] = binomial == 0.0 ? 0.0 : binomial * std::pow(a.value(), e);
+    f[k] = binomial * std::pow(a.value(), e);
     binomial *= e / static_cast<double>(k + 1);
   }
   return compose_scalar(f, a);
 }
+/// a^b; with a constant series b, the rules of a constant exponent hold, else a > 0.
 template <TaylorSeries T>
-T pow(const T& a, const T& b) { return exp(b * log(a)); }
+T pow(const T& a, const T& b) {
+  for (std::size_t k = 1; k < b.c.size(); ++k)
+    if (b.c[k] != 0.0) return exp(b * log(a));
+  return pow(a, b.value());
+}
 template <TaylorSeries T>
-T sqrt(const T& a) { return pow(a, 0.5); }
+T sqrt(const T& a) {
+  std::array<double, T::order + 1> f{};
+  f[0] = std::sqrt(a.value());
+  for (std::size_t k = 1; k < f.size(); ++k)
+    f[k] = k == 1 ? 0.5 / f[0]
+                  : f[k - 1] * (1.5 - static_cast<double>(k)) / (static_cast<double>(k) * a.value());
+  return compose_scalar(f, a);
+}
 
 /// Builds f from its first four derivatives repeating with sign: sin, cos (s = -1), sinh, cosh (s = +1).
 template <TaylorSeries T>
@@ -193,45 +265,78 @@ T compose_periodic(double f0, double f1, double s, const T& a) {
   return compose_scalar(f, a);
 }
 template <TaylorSeries T>
-T sin(const T& a) { return compose_periodic(std::sin(a.value()), std::cos(a.value()), -1.0, a); }
+T sin(const T& a) {
+  return compose_periodic(std::sin(a.value()), std::cos(a.value()), -1.0, a);
+}
 template <TaylorSeries T>
-T cos(const T& a) { return compose_periodic(std::cos(a.value()), -std::sin(a.value()), -1.0, a); }
+T cos(const T& a) {
+  return compose_periodic(std::cos(a.value()), -std::sin(a.value()), -1.0, a);
+}
 template <TaylorSeries T>
-T sinh(const T& a) { return compose_periodic(std::sinh(a.value()), std::cosh(a.value()), 1.0, a); }
+T sinh(const T& a) {
+  return compose_periodic(std::sinh(a.value()), std::cosh(a.value()), 1.0, a);
+}
 template <TaylorSeries T>
-T cosh(const T& a) { return compose_periodic(std::cosh(a.value()), std::sinh(a.value()), 1.0, a); }
+T cosh(const T& a) {
+  return compose_periodic(std::cosh(a.value()), std::sinh(a.value()), 1.0, a);
+}
+/// {sin a, cos a} for the price of one.
 template <TaylorSeries T>
-T tan(const T& a) { return sin(a) / cos(a); }
+std::array<T, 2> sin_cos(const T& a) {
+  const double s = std::sin(a.value()), c = std::cos(a.value());
+  return {compose_periodic(s, c, -1.0, a), compose_periodic(c, -s, -1.0, a)};
+}
+inline std::array<double, 2> sin_cos(double a) { return {std::sin(a), std::cos(a)}; }
+
+/// f with f' = 1 + s f^2, given f(a0) and f'(a0): tan (s = +1), tanh (s = -1).
+template <TaylorSeries T>
+T compose_riccati(double f0, double f1, double s, const T& a) {
+  std::array<double, T::order + 1> f{};
+  f[0] = f0;
+  for (std::size_t k = 0; k + 1 < f.size(); ++k) {
+    double square = 0.0;  // coefficient k of f^2
+    for (std::size_t i = 0; i <= k; ++i) square += f[i] * f[k - i];
+    f[k + 1] = k == 0 ? f1 : s * square / static_cast<double>(k + 1);
+  }
+  return compose_scalar(f, a);
+}
+template <TaylorSeries T>
+T tan(const T& a) {
+  const double t = std::tan(a.value());
+  return compose_riccati(t, 1.0 + t * t, 1.0, a);
+}
 template <TaylorSeries T>
 T tanh(const T& a) {
-  const T e = exp(a * (a.value() > 0 ? -2.0 : 2.0));
-  return (a.value() > 0 ? 1.0 : -1.0) * ((1.0 - e) / (1.0 + e));
+  const double sech = 1.0 / std::cosh(a.value());  // 1 - tanh^2 would cancel
+  return compose_riccati(std::tanh(a.value()), sech * sech, -1.0, a);
 }
+/// |a|; at a0 = 0 the branch of a0 > 0.
 template <TaylorSeries T>
-T abs(const T& a) { return a.value() < 0 ? -a : a; }
-
-/// Solves g(r) = a for r by Newton on series, starting from the exact constant term r0: each step doubles the order.
-template <TaylorSeries T, class G, class DG>
-T invert_function(double r0, const T& a, G g, DG dg) {
-  T r(r0);
-  for (int known = 1; known <= T::order; known *= 2) r = r - (g(r) - a) / dg(r);
-  r.c[0] = r0;
-  return r;
+T abs(const T& a) {
+  return a.value() < 0 ? -a : a;
 }
+
 template <TaylorSeries T>
 T atan2(const T& y, const T& x) {
-  // r = angle of (x, y) = a0 + atan(t), t = tangent of the angle turned away from the constant term.
-  const double a0 = std::atan2(y.value(), x.value());
-  const T t = (y * std::cos(a0) - x * std::sin(a0)) / (x * std::cos(a0) + y * std::sin(a0));
-  const T angle = invert_function(0.0, t, [](const T& r) { return tan(r); },
-                                  [](const T& r) { const T q = tan(r); return 1.0 + q * q; });
-  return a0 + angle;
+  // The angle of (x, y) is a0 + atan(t), with t the tangent of the angle turned back by the constant term a0.
+  const double a0 = std::atan2(y.value(), x.value()), s = std::sin(a0), c = std::cos(a0);
+  const T t = (y * c - x * s) / (x * c + y * s);
+  std::array<double, T::order + 1> f{};  // atan t = t - t^3/3 + t^5/5 - ...
+  for (std::size_t k = 1; k < f.size(); k += 2) f[k] = (k % 4 == 1 ? 1.0 : -1.0) / static_cast<double>(k);
+  f[0] = a0;
+  return compose_scalar(f, t);
 }
 template <TaylorSeries T>
-T atan(const T& a) { return atan2(a, T(1.0)); }
+T atan(const T& a) {
+  return atan2(a, T(1.0));
+}
 template <TaylorSeries T>
-T asin(const T& a) { return atan2(a, sqrt(1.0 - a * a)); }
+T asin(const T& a) {
+  return atan2(a, sqrt((1.0 - a) * (1.0 + a)));
+}
 template <TaylorSeries T>
-T acos(const T& a) { return atan2(sqrt(1.0 - a * a), a); }
+T acos(const T& a) {
+  return atan2(sqrt((1.0 - a) * (1.0 + a)), a);
+}
 
 }  // namespace blendwright
