@@ -6,10 +6,9 @@ find_package(Ceres REQUIRED)                     # least squares (correspondence
 find_package(nlohmann_json 3.11 REQUIRED)        # job files and reports
 find_package(CLI11 REQUIRED)                     # the command line
 find_package(OpenCASCADE REQUIRED)               # B-rep and STEP
-find_package(VTK REQUIRED COMPONENTS             # mesh files and pictures
-  CommonCore CommonDataModel CommonColor IOXML IOGeometry IOImage
-  FiltersCore FiltersGeneral FiltersSources FiltersModeling RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType
-  ChartsCore ViewsContext2D RenderingContext2D RenderingContextOpenGL2)
+find_package(VTK REQUIRED COMPONENTS             # mesh files and pictures; each further component may want more packages
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOXML IOImage
+  RenderingCore RenderingOpenGL2 RenderingFreeType)
 if(BLENDWRIGHT_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
