@@ -15,8 +15,8 @@ class FormulaSurface {
   FormulaSurface(Shape shape) : shape_(std::move(shape)) {}  // NOLINT: a shape is a surface
   [[nodiscard]] SurfaceJet jet(UV p) const {
     const auto s = shape_(Taylor2<2>::u_variable(p.u), Taylor2<2>::v_variable(p.v));
-    const auto d = [&](int i, int j) { return Vec3(s[0].derivative(i, j), s[1].derivative(i, j), s[2].derivative(i, j)); };
-    return {d(0, 0), d(1, 0), d(0, 1), d(2, 0), d(1, 1), d(0, 2)};
+    const auto c = [&](std::size_t k) { return Vec3(s[0].c[k], s[1].c[k], s[2].c[k]); };
+    return {c(0), c(1), c(2), 2.0 * c(3), c(4), 2.0 * c(5)};
   }
   [[nodiscard]] SurfacePartials partials(UV p) const {
     const auto s = shape_(Taylor2<4>::u_variable(p.u), Taylor2<4>::v_variable(p.v));
@@ -43,7 +43,8 @@ class FormulaCurve {
     const auto s = shape_(Taylor<3>::variable(v));
     CurveJet<Dim> j;
     for (int k = 0; k < 4; ++k)
-      for (int d = 0; d < Dim; ++d) j.D[static_cast<std::size_t>(k)][d] = s[static_cast<std::size_t>(d)].derivative(k);
+      for (int d = 0; d < Dim; ++d)
+        j.D[static_cast<std::size_t>(k)][d] = s[static_cast<std::size_t>(d)].derivative(k);
     return j;
   }
   [[nodiscard]] CurveDomain domain() const { return shape_.domain(); }

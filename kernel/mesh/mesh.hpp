@@ -9,7 +9,8 @@
 
 namespace blendwright {
 
-/// One named value (components = 1) or vector (3) per point; unit is written in labels ("mm", "deg", "1/mm", "").
+/// One named value (components = 1) or vector (3) per point; unit is written in labels ("mm", "deg", "1/mm",
+/// "").
 struct Column {
   std::string name, unit;
   int components = 1;
@@ -31,8 +32,8 @@ struct PolyLine {
   std::vector<Column> columns;
 };
 
-/// Mesh of a surface's whole domain on an nu x nv grid of cells; closed directions share their seam points, poles
-/// collapse to triangles without zero area. Normals from the jets. Columns "u" and "v" are filled.
+/// Mesh of a surface's whole domain on an nu x nv grid of cells; closed directions share their seam points,
+/// poles collapse to triangles without zero area. Normals from the jets. Columns "u" and "v" are filled.
 [[nodiscard]] TriMesh tessellate(const Surface& surface, int nu, int nv);
 
 }  // namespace blendwright
