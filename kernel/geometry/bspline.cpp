@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/base/error.hpp"
+#include "kernel/base/number_text.hpp"
 
 namespace blendwright {
 namespace {
@@ -18,9 +19,9 @@ void check_breaks(const std::vector<double>& breaks) {
     const std::string where = "breaks/" + std::to_string(i);
     if (!std::isfinite(breaks[i])) throw InputError(where, "is not a finite number");
     if (i > 0 && !(breaks[i] > breaks[i - 1]))
-      throw InputError(where, "is " + std::to_string(breaks[i]) +
+      throw InputError(where, "is " + number_text(breaks[i]) +
                                   ", must be greater than the break before it, " +
-                                  std::to_string(breaks[i - 1]));
+                                  number_text(breaks[i - 1]));
   }
 }
 
@@ -107,6 +108,7 @@ double BSplineBasis::inside(double t) const {
   const double lo = breaks_.front(), hi = breaks_.back();
   if (!periodic_) return std::clamp(t, lo, hi);
   if (t >= lo && t < hi) return t;
+  if (t == hi) return lo;
   const double wrapped = t - (hi - lo) * std::floor((t - lo) / (hi - lo));
   return wrapped >= lo && wrapped < hi ? wrapped : lo;  // rounding may reach either end: the same point
 }
