@@ -1,3 +1,43 @@
 #include "verify/report/blend_report.hpp"
 
-namespace blendwright {}
+#include "verify/surface/jet_grid.hpp"
+
+namespace blendwright {
+namespace {
+
+// Part `k` of `parts` equal parts of the work.
+Progress part(const Progress& whole, int k, int parts) {
+  return {[&whole, k, parts](double fraction, std::string_view stage) {
+            whole.report((k + fraction) / parts, stage);
+          },
+          whole.stop};
+}
+
+void check_surface(const BlendUnderTest& under_test, const VerifyOptions& options, BlendReport& report) {
+  const detail::JetGrid grid(under_test.blend, options.nu, options.nv);
+  report.fold = detail::fold(under_test.blend, grid);
+  report.minimum_radius = detail::minimum_radius(under_test.blend, grid);
+  for (std::size_t side = 0; side < 2; ++side)
+    if (under_test.seams[side].primary)
+      report.penetration[side] = detail::penetration(under_test.blend, grid, 2, under_test.seams[side]);
+  report.self_intersection = detail::self_intersection(grid);
+}
+
+}  // namespace
+
+BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, const VerifyOptions& options,
+                         const Progress& progress) {
+  BlendReport report;
+  report.name = blend.name;
+  report.stage = stage;
+  for (std::size_t side = 0; side < 2; ++side)
+    report.seams[side] =
+        check_seam(blend.seams[side], options.seam, part(progress, static_cast<int>(side), 3));
+  if (blend.closed) report.closing = check_closing(blend.blend);
+  report.surface_checked = options.surface_checks;
+  if (options.surface_checks) check_surface(blend, options, report);
+  progress.at(1.0, "verifying " + blend.name);
+  return report;
+}
+
+}  // namespace blendwright

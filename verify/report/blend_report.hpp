@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "verify/continuity/seam.hpp"
@@ -15,41 +16,49 @@ struct BlendUnderTest {
   std::string name;
   Surface blend;
   std::array<Seam, 2> seams;
-  bool closed = false;
+  bool closed = false;  ///< the blend is meant to close: S(u, v.lo) = S(u, v.hi)
 };
 
 struct BlendReport {
   std::string name;
-  std::string stage;                                      ///< "formula", "fitted", "step"
+  std::string stage;  ///< "formula", "fitted", "step"
   std::array<SeamReport, 2> seams;
-  std::optional<ClosingReport> closing;
+  std::optional<ClosingReport> closing;  ///< closed blends
+  bool surface_checked = true;           ///< false: the four below were not asked for and are empty
   FoldReport fold;
   Extreme minimum_radius;
-  std::array<std::optional<PenetrationReport>, 2> penetration;
+  std::array<std::optional<PenetrationReport>, 2> penetration;  ///< per side that has a primary
   SelfIntersectionReport self_intersection;
 };
 
 struct VerifyOptions {
   SeamOptions seam;
-  bool surface_checks = true;   ///< fold, radius, penetration, self-intersection
+  bool surface_checks = true;  ///< fold, radius, penetration, self-intersection
+  int nu = 32,
+      nv = 128;  ///< cells of the grid that the surface checks share; penetration uses every second line
 };
 
+/// Measures everything. The same report for any number of threads.
 [[nodiscard]] BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage,
                                        const VerifyOptions& options = {}, const Progress& progress = {});
 
 /// One row of the checks table: a named defect, found or not.
 struct Finding {
-  std::string check;      ///< name in the checks table
-  std::string text;       ///< sentence with value, limit and place
-  bool failed = false;    ///< false: a note or warning
+  std::string check;  ///< name in the checks table
+  std::string text;   ///< sentence with value, limit and place: "fillet/to: angle 0.31 deg exceeds 0.001 deg
+                      ///< at v = ..."
+  bool failed = false;  ///< false: a note or warning
 };
-/// Verdict of a report: every check of the table that fails or warns, given what each side was asked to reach.
+/// Verdict of a report: every check of the table that fails or warns, in the order of the table, given what
+/// each side was asked to reach. A value that is not a number fails its check, asked or not.
 [[nodiscard]] std::vector<Finding> judge(const BlendReport& report, const std::array<Continuity, 2>& asked,
-                                         const Tolerance& tolerance);
+                                         const Tolerance& tolerance,
+                                         LengthUnit unit = LengthUnit::millimetre);
 
 struct CheckInfo {
   std::string_view name, description;
 };
+/// The checks in the order in which `judge` walks them.
 [[nodiscard]] std::vector<CheckInfo> checks_table();
 
 }  // namespace blendwright

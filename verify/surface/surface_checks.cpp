@@ -1,3 +1,0 @@
-#include "verify/surface/surface_checks.hpp"
-
-namespace blendwright {}
