@@ -76,6 +76,8 @@ double SeamProbe::distance_to_primary(const Place& at) const {
 }
 
 bool SeamProbe::degenerate(const Place& at) const {
+  // Only numbers have a limit: a value that is not one must be seen where it is.
+  if (!(at.blend.Su + at.blend.Sv + at.primary.Su + at.primary.Sv).allFinite()) return false;
   return at.blend.Su.cross(at.blend.Sv).norm() <= vanishing * area_ || unit_normal(at.primary).isZero(0.0) ||
          at.C1.norm() * domain_.length() <= vanishing * length_;
 }

@@ -29,7 +29,10 @@ Mismatch mismatch(const SurfaceJet& a, const SurfaceJet& b) {
   const Vec3 na = unit_normal(a), nb = unit_normal(b);
   const double gap = (a.S - b.S).norm();
   // No normal on the line: the surface checks say so; here there is no angle to compare.
-  if (na.isZero(0.0) || nb.isZero(0.0)) return {gap, 0.0, 0.0};
+  if (na.isZero(0.0) || nb.isZero(0.0)) {
+    const double unknown = 0.0 * (a.Su + a.Sv + b.Su + b.Sv).sum();  // NaN or 0
+    return {gap, unknown, unknown};
+  }
   const Vec3 across = na.cross(a.Su);
   const Vec3 same = na.dot(nb) < 0.0 ? Vec3(-nb) : nb;
   // Signed: a band that closes with opposite normals (Moebius) still has one tangent plane on the line.

@@ -25,7 +25,8 @@ struct SignedFoot {
 SignedFoot signed_foot(const Surface& primary, const Vec3& q, std::optional<UV> guess) {
   const Foot foot = guess ? closest_point(primary, q, *guess) : closest_point(primary, q);
   const Vec3 n = unit_normal(primary.jet(foot.at));
-  const bool counts = foot.interior && !n.isZero(0.0) && std::isfinite(foot.distance);
+  if (!std::isfinite(foot.distance)) return {foot.at, std::numeric_limits<double>::quiet_NaN()};
+  const bool counts = foot.interior && !n.isZero(0.0);
   return {foot.at, counts ? std::copysign(foot.distance, (q - foot.point).dot(n)) : no_foot};
 }
 
@@ -106,6 +107,7 @@ PenetrationReport penetration(const Surface& blend, const JetGrid& grid, int str
   for (std::size_t r = 0; r < heights.rows(); ++r)
     for (std::size_t c = 0; c < heights.columns(); ++c) {
       const SignedFoot& foot = heights.foot(r, c);
+      if (std::isnan(foot.height)) return {true, {foot.height, heights.uv(grid, r, c), Vec3::Zero()}};
       if (foot.height == no_foot || !(-*outside * foot.height > report.depth.value)) continue;
       report.depth = {-*outside * foot.height, heights.uv(grid, r, c), Vec3::Zero()};
       foot_at = foot.at;

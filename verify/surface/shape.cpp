@@ -89,6 +89,7 @@ class FoldSearch {
 
 // Largest |principal curvature|; -1 where a finite jet has no normal, NaN where the jet is not finite.
 double bend(const SurfaceJet& jet) {
+  if (!(jet.Su + jet.Sv + jet.Suu + jet.Suv + jet.Svv).allFinite()) return nan;
   if (unit_normal(jet).isZero(0.0)) return -1.0;
   const SurfaceCurvature k = curvature(jet);
   return std::max(std::abs(k.k_min), std::abs(k.k_max));
