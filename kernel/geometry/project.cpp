@@ -13,6 +13,8 @@ namespace {
 
 constexpr int max_steps = 50;
 constexpr int seeds_per_direction = 24;
+/// Steps up to this share of the surface's size change the distance by about its rounding: they may.
+constexpr double small_step = 1e-6;
 /// A Newton step this much shorter than the surface leaves an error of the order of its square, below
 /// rounding.
 constexpr double last_step = 1e-9;
@@ -30,6 +32,12 @@ UV into(UV p, const SurfaceDomain& d) { return {into(p.u, d.u, d.u_closed), into
 /// Size of the surface as seen from one point: how far its parameter ranges reach at the speed there.
 double reach(const SurfaceJet& j, const SurfaceDomain& d) {
   return j.Su.norm() * d.u.length() + j.Sv.norm() * d.v.length();
+}
+
+/// What rounding of points of this size (coordinates and reach) does to f = |r|^2 / 2.
+double rounding_of(double f, double size) {
+  const double noise = 8.0 * std::numeric_limits<double>::epsilon() * size;
+  return noise * (std::sqrt(2.0 * f) + noise);
 }
 
 /// Whether a descent along -gradient would leave an open range at t: the parameter is then held at the
@@ -124,8 +132,8 @@ Minimum minimise(const Surface& surface, const SurfaceDomain& domain, Model mode
       const UV next = into(UV{m.at.u + step[0], m.at.v + step[1]}, domain);
       const SurfaceJet jet = surface.jet(next);
       const Quadratic q = model(jet);
-      // A last step may change f by rounding only; it is taken as it is.
-      if (q.f < m.model.f || (last && q.f <= m.model.f * (1.0 + 1e-12))) {
+      const double slack = length <= small_step * size ? rounding_of(m.model.f, size + jet.S.norm()) : 0.0;
+      if (q.f < m.model.f + slack) {
         m = {next, jet, q};
         moved = true;
       } else if (last) {
@@ -147,7 +155,7 @@ std::optional<UV> leave_pole(const Surface& surface, const SurfaceDomain& domain
   const bool v_is_idle = sv < su;
   const Interval& turn = v_is_idle ? domain.v : domain.u;
   std::optional<UV> best;
-  double best_f = m.model.f * (1.0 - 1e-12);
+  double best_f = m.model.f - rounding_of(m.model.f, reach(m.jet, domain) + m.jet.S.norm());
   for (int k = 0; k < seeds_per_direction; ++k) {
     const double t = turn.at((k + 0.5) / seeds_per_direction);
     UV p = v_is_idle ? UV{m.at.u, t} : UV{t, m.at.v};
@@ -283,8 +291,9 @@ CurveFoot closest_point(const Curve3& curve, const Vec3& q, double guess) {
       last = std::abs(step) <= last_step * domain.v.length();
       const double next = into(v + step, domain.v, domain.closed);
       const CurveJet<3> there = curve.jet(next);
-      const double f_next = 0.5 * (there.C() - q).squaredNorm();
-      if (f_next < f || (last && f_next <= f * (1.0 + 1e-12))) {
+      const double size = std::sqrt(speed2) * domain.v.length() + there.C().norm();
+      const double slack = std::abs(step) <= small_step * domain.v.length() ? rounding_of(f, size) : 0.0;
+      if (0.5 * (there.C() - q).squaredNorm() < f + slack) {
         v = next;
         jet = there;
         moved = true;

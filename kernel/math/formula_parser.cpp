@@ -152,7 +152,8 @@ class Parser {
       const double a = code[code.size() - operands].number;
       const double value = apply<double>({op, 0.0, 0}, a, b);
       if (!std::isfinite(value))
-        fail(position, "this part has the value " + number_text(value) + ", must be finite");
+        fail(position, std::isnan(value) ? "this part is not a number (outside a function's domain)"
+                                         : "this part is infinite");
       code.resize(code.size() - operands);
       code.push_back({FormulaOp::constant, value, 0});
     } else if (op == FormulaOp::power && ends_in_constants(1)) {

@@ -143,7 +143,7 @@ void check_placement(const PrimarySpec& spec, Problems& problems) {
 /// What only evaluation shows: the surface is finite, and closed where it was said to be.
 void check_surface(const PrimarySpec& spec, const PrimaryInfo& row, const Surface& surface,
                    Problems& problems) {
-  const std::string key = !row.texts.empty() ? std::string(row.texts) : std::string("points");
+  const std::string key(!row.texts.empty() ? row.texts : row.takes_points ? "points" : row.parameters[0]);
   const SurfaceDomain d = surface.domain();
   double size = 0.0;
   constexpr int n = 8;
