@@ -20,16 +20,25 @@ struct BlendSpec {
 
 struct Blend {
   OdeBlend surface;
-  std::array<std::optional<Trimline>, 2> trimlines;  ///< on the blend's v; empty for literal boundary data without one
+  std::array<std::optional<Trimline>, 2>
+      trimlines;  ///< on the blend's v; empty for literal boundary data without one
   std::optional<Correspondence> correspondence;
   std::optional<CrossTangents> tangents;
-  std::vector<std::string> warnings;                 ///< kappa > 1e3, sharp transversality, harmless degenerate points
+  /// One sentence each: kappa > 1e3 (wild shape), a cross tangent within asin(0.1) of its trimline, harmless
+  /// degenerate points, a place where literal data have |C'| = 0, connecting lines twisted by more than 75
+  /// deg.
+  std::vector<std::string> warnings;
 };
 
-/// Throws GeometryError, InputError (where: "sides/0/...", "shape/..."), ResonanceError.
-[[nodiscard]] Blend make_blend(const Trimline& line0, const Trimline& line1, const BlendSpec& spec, double tolerance);
-/// From boundary data typed as formulas. `lines` (on the same v) only serve the trimmed primaries and the checks.
-[[nodiscard]] Blend make_literal_blend(const EndCondition& end0, const EndCondition& end1, const BlendShape& shape,
+/// Throws GeometryError (also at a trimline's corner: a degenerate point whose normal or tangent limits
+/// differ by more than 1e-6 rad), InputError (where: "sides/0/...", "correspondence/...", "shape/..."),
+/// ResonanceError.
+[[nodiscard]] Blend make_blend(const Trimline& line0, const Trimline& line1, const BlendSpec& spec,
+                               double tolerance);
+/// From boundary data typed as formulas. `lines` (on the same v) only serve the trimmed primaries and the
+/// checks.
+[[nodiscard]] Blend make_literal_blend(const EndCondition& end0, const EndCondition& end1,
+                                       const BlendShape& shape,
                                        std::array<std::optional<Trimline>, 2> lines = {});
 
 }  // namespace blendwright

@@ -1,5 +1,10 @@
 #pragma once
 // Which point of trimline 0 is joined to which point of trimline 1.
+//
+// De = C1 - C0.  N_i = 1/2 int C_i x C_i' dv, the signed area vector of a closed line (1) J(o) = int |C1(o +-
+// x) - C0(x)|^2 dx, the cost of a seam offset o and a direction                            (2) A line is
+// reversed when N_0.N_1 < 0; when |N_0.N_1| < 0.1 |N_0||N_1|, and on open lines always, when J is less that
+// way. The seam offset minimises J: the best of 256 steps, then Newton.
 #include <optional>
 
 #include "parametric/trimline/trimline.hpp"
@@ -7,26 +12,34 @@
 namespace blendwright {
 
 enum class CorrespondenceRule {
-  as_given,      ///< both lines keep their parameter, mapped to a common range
-  arc_length,    ///< normalised arc length on both (default)
+  as_given,    ///< both lines keep their parameter, mapped to a common range; not reversed or shifted unless
+               ///< asked
+  arc_length,  ///< normalised arc length on both (default)
   minimal_twist  ///< arc length on line 0; line 1 by a monotone map that minimises int |d(De/|De|)/dv|^2
 };
 
 struct CorrespondenceSpec {
   CorrespondenceRule rule = CorrespondenceRule::arc_length;
-  std::optional<bool> reverse;         ///< nullopt: decided (signed area vectors, else the cheaper of both)
-  std::optional<double> seam_offset;   ///< closed lines, as a fraction of the period of line 1; nullopt: minimal distance
+  /// Whether line 1 is run through backwards; nullopt: decided by (1), else by (2).
+  std::optional<bool> reverse;
+  /// Closed lines: the start of line 0 is joined to the point of line 1 at this fraction of its period,
+  /// counted along line 1 as given (also when it is reversed); nullopt: minimal distance (2).
+  std::optional<double> seam_offset;
 };
 
 struct Correspondence {
-  Trimline line0, line1;   ///< on the common range
+  Trimline line0, line1;  ///< on the common range
   bool reversed = false;
-  double seam_offset = 0.0;
-  double twist = 0.0;      ///< largest angle between De and its neighbours' mean direction per unit of v, radians
+  double seam_offset = 0.0;  ///< in [0, 1)
+  /// Largest angle, over v, between De and the plane of C0' and C1', weighted by their own angle:
+  /// asin(|det(De, C0', C1')| / (|De| |C0'| |C1'|)), radians; 0 for a developable strip.
+  double twist = 0.0;
 };
 
-/// Closed with closed, open with open; anything else is a GeometryError. The common range is [0, 1] for arc_length and
-/// minimal_twist, and line 0's own range for as_given.
-[[nodiscard]] Correspondence correspond(const Trimline& line0, const Trimline& line1, const CorrespondenceSpec& spec);
+/// Closed with closed, open with open; anything else is a GeometryError, also a line that stops (|C'| = 0)
+/// under the arc length rules. InputError: a seam offset for open lines, or one that is not finite. The
+/// common range is [0, 1] for arc_length and minimal_twist, and line 0's own range for as_given.
+[[nodiscard]] Correspondence correspond(const Trimline& line0, const Trimline& line1,
+                                        const CorrespondenceSpec& spec);
 
 }  // namespace blendwright
