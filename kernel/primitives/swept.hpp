@@ -1,6 +1,7 @@
 #pragma once
 // Surfaces made of a profile: revolution and extrusion, and the surface that is typed as three formulas.
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,19 @@
 #include "kernel/primitives/quadrics.hpp"
 
 namespace blendwright {
+
+/// A parameter of a closed direction, brought into its range by whole periods: a typed formula need not be
+/// periodic.
+template <class T>
+T in_period(const T& t, const Interval& range, bool closed) {
+  double value = 0.0;
+  if constexpr (TaylorSeries<T>)
+    value = t.value();
+  else
+    value = t;
+  if (!closed || range.contains(value)) return t;
+  return t - range.length() * std::floor((value - range.lo) / range.length());
+}
 
 /// A curve of one formula per coordinate, each in one variable.
 template <std::size_t Dim>
@@ -57,7 +71,7 @@ struct RevolutionShape : ShapeDomain {
   template <class T>
   std::array<T, 3> operator()(const T& u, const T& v) const {
     const auto [sin_v, cos_v] = sin_cos(v);
-    const auto [r, z] = profile(u);
+    const auto [r, z] = profile(in_period(u, range.u, range.u_closed));
     return {r * cos_v, r * sin_v, z};
   }
 };
@@ -69,7 +83,7 @@ struct ExtrusionShape : ShapeDomain {
   Vec3 direction = Vec3::UnitZ();
   template <class T>
   std::array<T, 3> operator()(const T& u, const T& v) const {
-    const auto c = profile(v);
+    const auto c = profile(in_period(v, range.v, range.v_closed));
     return {c[0] + u * direction[0], c[1] + u * direction[1], c[2] + u * direction[2]};
   }
 };
@@ -79,7 +93,7 @@ struct TypedShape : ShapeDomain {
   std::vector<Formula> coordinates;
   template <class T>
   std::array<T, 3> operator()(const T& u, const T& v) const {
-    const std::array<T, 2> uv{u, v};
+    const std::array<T, 2> uv{in_period(u, range.u, range.u_closed), in_period(v, range.v, range.v_closed)};
     const std::span<const T> arguments(uv);
     return {coordinates[0](arguments), coordinates[1](arguments), coordinates[2](arguments)};
   }

@@ -157,8 +157,10 @@ TEST(Formula, RefusesConstantsThatHideAVariableOrAreNotFinite) {
 
 TEST(Formula, NestsToTwoHundredLevelsAndNoDeeper) {
   const auto nested = [](const std::string& open, const std::string& close, int levels) {
-    std::string text = "u";
-    for (int i = 0; i < levels; ++i) text = open + text + close;
+    std::string text;
+    for (int i = 0; i < levels; ++i) text += open;
+    text += "u";
+    for (int i = 0; i < levels; ++i) text += close;
     return Formula(text, uv)(std::vector<double>{2.0, 0.0});
   };
   EXPECT_EQ(nested("(", ")", 200), 2.0);

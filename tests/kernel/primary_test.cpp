@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -146,39 +147,40 @@ TEST(Primary, FulfilsTheEquationOfItsKind) {
   EXPECT_EQ(equations, 15);  // all but the splines
 }
 
-TEST(Primary, DerivativesOfEveryRowAgreeWithDifferences) {
-  for_every_row([](const Sample& s, const Surface& surface) {
-    const bool is_spline = !s.spec.points.empty();
-    for_all(
-        [&](Rng& rng) {
-          const UV p = random_inside(rng, surface.domain());
-          if (is_spline) {
-            // Differences that reach across a knot see its kink in the highest derivatives; the jet of a
-            // quintic is C3.
-            ASSERT_LE(test::jet_error(surface, p), 1e-4);
-          } else {
-            ASSERT_THAT(surface, HasConsistentJetAt(p));
-            ASSERT_THAT(surface, HasConsistentPartialsAt(p));
-          }
-        },
-        50);
-  });
+/// The breaks of a surface made of splines, in u and v.
+std::array<std::vector<double>, 2> breaks_of(const Surface& surface) {
+  if (const auto* s = surface.target<BSplineSurface>()) return {s->basis_u().breaks(), s->basis_v().breaks()};
+  if (const auto* s = surface.target<RevolvedSpline>())
+    return {s->shape().profile.curve.basis().breaks(), std::vector<double>{}};
+  if (const auto* s = surface.target<ExtrudedSpline>())
+    return {std::vector<double>{}, s->shape().profile.curve.basis().breaks()};
+  return {};
 }
 
-TEST(Primary, PartialsOfOrderThreeAndFourExtendTheJet) {
+/// Differences reach over 2 steps to each side and need one polynomial there.
+bool is_smooth_near(const Surface& surface, UV p) {
+  const SurfaceDomain d = surface.domain();
+  const auto breaks = breaks_of(surface);
+  const auto clear = [](const std::vector<double>& ts, double x, double range) {
+    return std::none_of(ts.begin(), ts.end(),
+                        [&](double t) { return std::abs(t - x) <= 2.0 * test::step_share * range; });
+  };
+  return clear(breaks[0], p.u, d.u.length()) && clear(breaks[1], p.v, d.v.length());
+}
+
+TEST(Primary, DerivativesOfEveryRowAgreeWithDifferences) {
   for_every_row([](const Sample&, const Surface& surface) {
+    int points = 0;
     for_all(
         [&](Rng& rng) {
           const UV p = random_inside(rng, surface.domain());
-          const SurfacePartials P = surface.partials(p);
-          const SurfaceJet j = surface.jet(p);
-          const double scale = 1.0 + j.S.norm() + j.Suu.norm() + j.Suv.norm() + j.Svv.norm();
-          ASSERT_LE((P(0, 0) - j.S).norm(), 1e-14 * scale);
-          ASSERT_LE((P(1, 0) - j.Su).norm() + (P(0, 1) - j.Sv).norm(), 1e-14 * scale);
-          ASSERT_LE((P(2, 0) - j.Suu).norm() + (P(1, 1) - j.Suv).norm() + (P(0, 2) - j.Svv).norm(),
-                    1e-14 * scale);
+          if (!is_smooth_near(surface, p)) return;
+          ++points;
+          ASSERT_THAT(surface, HasConsistentJetAt(p));
+          ASSERT_THAT(surface, HasConsistentPartialsAt(p));
         },
-        20);
+        50);
+    EXPECT_GE(points, 20);
   });
 }
 
@@ -303,6 +305,16 @@ TEST(FormulaPrimary, EqualsTheBuiltInOfTheSameFormula) {
         },
         50);
   }
+}
+
+TEST(FormulaPrimary, AcceptsAnyParameterOfAClosedDirection) {
+  // The square of 4 u (1 - u) starts and ends with value 0 and slope 0, but is not periodic.
+  PrimarySpec spec = typed({"v", "(4*u*(1-u))^2", "v"}, {0, 1}, {0, 1});
+  spec.closed = {true, false};
+  ASSERT_EQ(check(spec), std::vector<Problem>{});
+  const Surface s = make_primary(spec);
+  for (const double turns : {-2.0, -1.0, 1.0, 3.0})
+    EXPECT_LE((s.point({0.25 + turns, 0.5}) - s.point({0.25, 0.5})).norm(), 1e-14);
 }
 
 TEST(BSplinePrimary, TakesFlatKnots) {
