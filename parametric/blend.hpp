@@ -13,9 +13,9 @@ namespace blendwright {
 
 /// A blend between two trimlines on primaries.
 struct BlendSpec {
-  std::array<SideSpec, 2> sides;
-  CorrespondenceSpec correspondence;
-  BlendShape shape;
+  std::array<SideSpec, 2> sides{};
+  CorrespondenceSpec correspondence{};
+  BlendShape shape{};
 };
 
 struct Blend {

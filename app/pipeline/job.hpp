@@ -18,9 +18,9 @@ namespace blendwright {
 
 /// A face of a STEP file as a primary.
 struct StepFaceSpec {
-  std::filesystem::path file;  ///< relative to the job file's folder when not absolute
-  FaceSelector select;
-  RigidMotion placement;
+  std::filesystem::path file{};  ///< relative to the job file's folder when not absolute
+  FaceSelector select{};
+  RigidMotion placement{};
 };
 
 struct PrimaryEntry {
@@ -30,8 +30,8 @@ struct PrimaryEntry {
 
 /// A curve typed as formulas of v, or through points.
 struct CurveSpec {
-  std::vector<std::string> formulas;  ///< 2 (parameters) or 3 (space) texts in v
-  std::vector<Vec3> points;           ///< third coordinate unused for parameter curves
+  std::vector<std::string> formulas{};  ///< 2 (parameters) or 3 (space) texts in v
+  std::vector<Vec3> points{};           ///< third coordinate unused for parameter curves
   bool closed = false;
   Interval v{0.0, 1.0};  ///< formulas: the range; points: ignored, chord length on [0, 1]
 };
@@ -40,25 +40,25 @@ struct TrimlineSpec {
   enum class Kind { isoline, parameters, projected, edge, edge_chain } kind = Kind::isoline;
   IsoDirection direction = IsoDirection::constant_u;  ///< isoline
   double value = 0.0;                                 ///< isoline
-  std::optional<Interval> range;                      ///< isoline
-  CurveSpec curve;                                    ///< parameters, projected
-  std::optional<Vec3> along;                          ///< projected: direction; empty: closest point
-  EdgeSelector edge;                                  ///< edge, edge_chain
+  std::optional<Interval> range{};                      ///< isoline
+  CurveSpec curve{};                                    ///< parameters, projected
+  std::optional<Vec3> along{};                          ///< projected: direction; empty: closest point
+  EdgeSelector edge{};                                  ///< edge, edge_chain
 };
 
 struct BlendSideEntry {
-  std::string primary;                   ///< name; may be empty for literal data
-  std::optional<TrimlineSpec> trimline;  ///< required unless literal
-  std::optional<LiteralEnd> literal;
-  SideSpec side;
+  std::string primary{};                   ///< name; may be empty for literal data
+  std::optional<TrimlineSpec> trimline{};  ///< required unless literal
+  std::optional<LiteralEnd> literal{};
+  SideSpec side{};
 };
 
 struct BlendEntry {
-  std::string name;
-  std::array<BlendSideEntry, 2> sides;  ///< from (u = 0), to (u = 1)
-  CorrespondenceSpec correspondence;
-  BlendShape shape;
-  std::optional<CurveDomain> v;  ///< literal data: range, and whether it closes
+  std::string name{};
+  std::array<BlendSideEntry, 2> sides{};  ///< from (u = 0), to (u = 1)
+  CorrespondenceSpec correspondence{};
+  BlendShape shape{};
+  std::optional<CurveDomain> v{};  ///< literal data: range, and whether it closes
   [[nodiscard]] bool literal() const { return sides[0].literal.has_value(); }
 };
 
@@ -70,15 +70,15 @@ struct OutputSpec {
 };
 
 struct JobSpec {
-  std::string name;              ///< stem of the output files; the job file's stem
-  std::string source_hash;       ///< of the job text
-  std::filesystem::path folder;  ///< that relative STEP paths start from
+  std::string name{};              ///< stem of the output files; the job file's stem
+  std::string source_hash{};       ///< of the job text
+  std::filesystem::path folder{};  ///< that relative STEP paths start from
   LengthUnit unit = LengthUnit::millimetre;
-  std::map<std::string, double> constants;  ///< "let"
-  std::vector<PrimaryEntry> primaries;
-  std::vector<BlendEntry> blends;
-  Tolerance tolerance;
-  OutputSpec output;
+  std::map<std::string, double> constants{};  ///< "let"
+  std::vector<PrimaryEntry> primaries{};
+  std::vector<BlendEntry> blends{};
+  Tolerance tolerance{};
+  OutputSpec output{};
 };
 
 }  // namespace blendwright

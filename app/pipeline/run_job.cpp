@@ -110,7 +110,8 @@ Blend build_blend(const BlendEntry& entry, const JobSpec& job, const std::vector
   }
 }
 
-/// The fit spends a tenth of the tolerance, so that files and re-reading have the rest.
+}  // namespace
+
 BlendFitOptions fit_options(const Tolerance& tolerance) {
   BlendFitOptions options;
   options.position = 0.1 * tolerance.position;
@@ -118,8 +119,6 @@ BlendFitOptions fit_options(const Tolerance& tolerance) {
   options.curvature = 0.1 * tolerance.curvature;
   return options;
 }
-
-}  // namespace
 
 BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
   const auto seam = [&](std::size_t i) {

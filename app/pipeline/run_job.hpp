@@ -34,6 +34,9 @@ struct JobResult {
   std::vector<StageTime> times;
 };
 
+/// What a fit is asked for: a tenth of the tolerance, so that files and re-reading have the rest.
+[[nodiscard]] BlendFitOptions fit_options(const Tolerance& tolerance);
+
 /// Builds, fits and verifies every blend of the job, in memory. Throws InputError (JSON pointers, all
 /// problems at once), GeometryError prefixed with the pointer of the blend, ConvergenceError, Cancelled.
 [[nodiscard]] JobResult run_job(const JobSpec& job, const Progress& progress = {});

@@ -21,10 +21,10 @@ enum class CorrespondenceRule {
 struct CorrespondenceSpec {
   CorrespondenceRule rule = CorrespondenceRule::arc_length;
   /// Whether line 1 is run through backwards; nullopt: decided by (1), else by (2).
-  std::optional<bool> reverse;
+  std::optional<bool> reverse{};
   /// Closed lines: the start of line 0 is joined to the point of line 1 at this fraction of its period,
   /// counted along line 1 as given (also when it is reversed); nullopt: minimal distance (2).
-  std::optional<double> seam_offset;
+  std::optional<double> seam_offset{};
 };
 
 struct Correspondence {

@@ -41,12 +41,12 @@ struct Deviation {
 
 /// One joint to be measured.
 struct Seam {
-  std::string name;  ///< e.g. "fillet/from"
+  std::string name{};  ///< e.g. "fillet/from"
   Surface blend;
   int side = 0;                    ///< 0: the edge u = lo, 1: the edge u = hi of the blend
-  std::optional<Surface> primary;  ///< empty: there is nothing to measure against
+  std::optional<Surface> primary{};///< empty: there is nothing to measure against
   std::optional<Curve2>
-      pcurve;             ///< trimline on the primary, on the blend's v; empty: closest points are searched
+      pcurve{};           ///< trimline on the primary, on the blend's v; empty: closest points are searched
   bool kept_left = true;  ///< the kept part of the primary lies towards nP x C'
 };
 
