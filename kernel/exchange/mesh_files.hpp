@@ -1,5 +1,7 @@
 #pragma once
-// Mesh files. Every writer goes through a temporary file and a rename, and throws IoError.
+// Mesh files. Every writer goes through a temporary file and a rename: it throws IoError (where, why) and
+// leaves nothing under `file` then, or InputError when a mesh contradicts itself (a column, normal or index
+// that does not fit its points; a coordinate that is not finite). The same mesh gives the same bytes.
 #include <filesystem>
 #include <span>
 
@@ -7,13 +9,23 @@
 
 namespace blendwright {
 
-void write_vtp(const std::filesystem::path& file, const TriMesh& mesh);      ///< point data, normals, binary XML
+/// Points, normals and columns as 64-bit floats: nothing is rounded. A column's unit is its array's
+/// UNITS_LABEL, the mesh's name the field data "name".
+void write_vtp(const std::filesystem::path& file, const TriMesh& mesh);
+/// One cell per line, with cell data "name" and "closed"; a closed line ends with its first point. A column
+/// that only some lines have is NaN on the others.
 void write_vtp(const std::filesystem::path& file, std::span<const PolyLine> lines);
-void write_stl(const std::filesystem::path& file, std::span<const TriMesh> meshes);   ///< binary
-void write_obj(const std::filesystem::path& file, std::span<const TriMesh> meshes);   ///< one group per mesh, normals
+/// Binary, all meshes one after another; facet normals from the corners by the right-hand rule (0 without an
+/// area). Coordinates are rounded to 32-bit floats. No names, point normals or columns.
+void write_stl(const std::filesystem::path& file, std::span<const TriMesh> meshes);
+/// One group per mesh, with point normals where the mesh has them; numbers read back to the same double. No
+/// columns.
+void write_obj(const std::filesystem::path& file, std::span<const TriMesh> meshes);
 
-/// Reads a .vtp, .stl or .obj back as points, triangles and scalar columns (for checks on what a user receives).
+/// Reads a .vtp, a binary .stl or an .obj of triangles, for checks on what a user receives. Equal corners of
+/// an STL become one point; the groups of an OBJ become one mesh. Throws IoError.
 [[nodiscard]] TriMesh read_mesh(const std::filesystem::path& file);
+/// The lines of a .vtp; closed where the last point is the first. Throws IoError.
 [[nodiscard]] std::vector<PolyLine> read_polylines(const std::filesystem::path& file);
 
 }  // namespace blendwright

@@ -1,6 +1,6 @@
 #pragma once
-// Pictures by VTK: a shaded view with a colour bar, and line plots. They need an X display: one that is there is used,
-// else Xvfb is started for the run.
+// Pictures by VTK: a shaded view with a colour bar, and line plots. They need an X display: one that is there
+// is used, else Xvfb is started for the run.
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -12,7 +12,10 @@
 
 namespace blendwright {
 
-/// While it lives, DISPLAY names a working display. `available` false: neither a display nor Xvfb; `reason` says so.
+/// While it lives, DISPLAY names a working display. `available` false: neither a display nor Xvfb; `reason`
+/// says so. The display that DISPLAY names is tried in a child process first, since VTK aborts where it
+/// cannot draw. Changes the environment: make it before other threads read that, and keep the thread that
+/// made it, as Xvfb ends with it.
 class Display {
  public:
   Display();
@@ -37,16 +40,19 @@ struct PictureMesh {
 };
 
 struct Picture {
-  std::string title;            ///< with the worst figure
+  std::string title;  ///< with the worst figure
   std::vector<PictureMesh> meshes;
   std::vector<PolyLine> lines;  ///< drawn as tubes, dark
-  std::string column;           ///< of the coloured meshes; empty: plain shading
+  std::string column;           ///< of the coloured meshes, one component; empty: plain shading
   std::string bar_title;        ///< with the unit
-  bool logarithmic = false;
-  std::optional<Vec3> view;     ///< direction from the object to the eye; default isometric
-  int width = 1000, height = 760;
+  bool logarithmic = false;     ///< at most eight decades; what lies below, and zero, has the lowest colour
+  std::optional<Vec3> view;     ///< direction from the object to the eye; default (1, -1.2, 0.8)
+  int width = 1000, height = 760;  ///< 64 to 4096 pixels
 };
-/// Camera fitted to the object, white background, perceptually uniform colours. Throws IoError.
+/// Parallel projection fitted to the object, white background, perceptually uniform colours, grey for NaN.
+/// The focus (lines, coloured and opaque meshes) stays visible beside translucent meshes that are much
+/// larger: these are cut off then. Throws IoError (no display; the file), InputError (a column that is
+/// missing, a view without direction, a mesh that contradicts itself).
 void write_picture(const std::filesystem::path& png, const Picture& picture, const Display& display);
 
 struct PlotCurve {
@@ -56,11 +62,12 @@ struct PlotCurve {
 struct Plot {
   std::string title, x_label, y_label;
   std::vector<PlotCurve> curves;
-  bool logarithmic = false;
+  bool logarithmic =
+      false;  ///< of y: at most twelve decades; what lies below, and zero, is drawn at the bottom
   std::optional<double> limit;  ///< drawn as a dashed line: the tolerance
 };
-/// Plots side by side in one picture.
-void write_plots(const std::filesystem::path& png, const std::vector<Plot>& plots, const Display& display, int width = 1500,
-                 int height = 460);
+/// Plots side by side in one picture. Throws IoError (no display; the file), InputError.
+void write_plots(const std::filesystem::path& png, const std::vector<Plot>& plots, const Display& display,
+                 int width = 1500, int height = 460);
 
 }  // namespace blendwright
