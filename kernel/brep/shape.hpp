@@ -17,10 +17,10 @@ struct Colour {
 
 /// One trimline of a primary: where it runs in the primary's parameters and which side stays.
 struct PrimaryCut {
-  Curve2 pcurve;               ///< on the blend's v
-  bool kept_left = true;       ///< kept part towards n x C'
-  std::size_t blend = 0;       ///< index into Assembly::blends
-  int side = 0;                ///< 0: u = 0 edge of that blend, 1: u = 1 edge
+  Curve2 pcurve;          ///< on the blend's v
+  bool kept_left = true;  ///< kept part towards n x C'
+  std::size_t blend = 0;  ///< index into Assembly::blends
+  int side = 0;           ///< 0: u = 0 edge of that blend, 1: u = 1 edge
 };
 
 struct PrimaryPatch {
@@ -32,7 +32,7 @@ struct PrimaryPatch {
 
 struct BlendPatch {
   std::string name;
-  BSplineSurface surface;      ///< u in [0, 1] across, v along; periodic in v when closed
+  BSplineSurface surface;  ///< u in [0, 1] across, v along; periodic in v when closed
   Colour colour{0.90, 0.55, 0.15};
 };
 
@@ -52,11 +52,11 @@ class Shape {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Builds one shell (a solid when it closes): each blend is one face, its trimline edges are the primaries' edges (one
-/// edge, one 3-D curve, two pcurves), never sewn. Primaries keep their own STEP entity where there is one (plane,
-/// circular cylinder, cone, sphere, torus, B-spline), else a B-spline within `tolerance` / 100.
-/// A primary whose trimline does not divide its domain is cut by straight parameter lines to the nearest border, which
-/// the warnings say. Throws GeometryError when an edge cannot be closed within `tolerance`.
+/// Builds one shell (a solid when it closes): each blend is one face, its trimline edges are the primaries'
+/// edges (one edge, one 3-D curve, two pcurves), never sewn. Primaries keep their own STEP entity where there
+/// is one (plane, circular cylinder, cone, sphere, torus, B-spline), else a B-spline within `tolerance` /
+/// 100. A primary whose trimline does not divide its domain is cut by straight parameter lines to the nearest
+/// border, which the warnings say. Throws GeometryError when an edge cannot be closed within `tolerance`.
 struct AssemblyResult {
   Shape shape;
   std::vector<std::string> warnings;
@@ -65,11 +65,12 @@ struct AssemblyResult {
 
 /// What the CAD kernel says of the shape, measured, not believed: see also verify.
 struct ShapeCheck {
-  bool valid = false;               ///< BRepCheck on every sub-shape
-  double largest_tolerance = 0.0;   ///< over vertices, edges, faces
-  double largest_edge_gap = 0.0;    ///< largest measured distance between an edge's curve and its pcurves on their faces
+  bool valid = false;              ///< BRepCheck on every sub-shape
+  double largest_tolerance = 0.0;  ///< over vertices, edges, faces
+  double largest_edge_gap =
+      0.0;  ///< largest measured distance between an edge's curve and its pcurves on their faces
   std::size_t faces = 0, shells = 0, solids = 0;
-  std::size_t free_edges = 0;       ///< edges of one face only (degenerated edges and seams not counted)
+  std::size_t free_edges = 0;  ///< edges of one face only (degenerated edges and seams not counted)
   std::size_t unexpected_free_edges = 0;  ///< free edges that lie on a blend's trimline
   double area = 0.0;
   std::vector<std::string> problems;

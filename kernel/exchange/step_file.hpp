@@ -17,23 +17,26 @@ struct StepOptions {
   std::string product = "blend";
 };
 
-/// Writes to a temporary file in the same folder and renames; the time stamp comes from SOURCE_DATE_EPOCH when set.
-/// Throws IoError (where, why); nothing is left under `file` then.
+/// Writes to a temporary file in the same folder and renames; the time stamp comes from SOURCE_DATE_EPOCH
+/// when set. Throws IoError (where, why); nothing is left under `file` then.
 void write_step(const std::filesystem::path& file, const Shape& shape, const StepOptions& options);
 
 /// One face as it came back.
 struct StepFace {
   std::string name;
-  Surface surface;               ///< orientation and location applied; B-splines come back as BSplineSurface
+  Surface surface;  ///< location applied, in the file's own parameters (so that they can be compared with
+                    ///< what was written); B-splines come back as BSplineSurface
+  bool reversed = false;  ///< the outward normal of the face is -(Su x Sv)
   std::optional<Colour> colour;
   std::size_t control_points = 0;
 };
 struct StepContent {
-  std::vector<StepFace> faces;   ///< in the order of the file
+  std::vector<StepFace> faces;  ///< in the order of the file
   ShapeCheck check;
   std::string schema, unit;
   std::size_t bytes = 0;
 };
-[[nodiscard]] StepContent read_step(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
+[[nodiscard]] StepContent read_step(const std::filesystem::path& file,
+                                    LengthUnit unit = LengthUnit::millimetre);
 
 }  // namespace blendwright

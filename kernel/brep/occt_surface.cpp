@@ -1,0 +1,169 @@
+#include "kernel/brep/occt_surface.hpp"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <ElSLib.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <Geom_ToroidalSurface.hxx>
+#include <cmath>
+
+#include "kernel/base/number_text.hpp"
+#include "kernel/brep/occt_geometry.hpp"
+
+namespace blendwright::detail {
+namespace {
+
+using opencascade::handle;
+
+/// Clips a face's range to the geometry's: bounds of pcurves may stick out by rounding.
+Interval clip(double lo, double hi, double first, double last, bool periodic, double period) {
+  if (periodic) return hi - lo > period * (1.0 - 1e-9) ? Interval{lo, lo + period} : Interval{lo, hi};
+  return {std::max(lo, first), std::min(hi, last)};
+}
+
+std::string lengths(const char* label, double x) { return std::string(label) + number_text(x, 6); }
+
+}  // namespace
+
+SurfaceJet OcctSurface::jet(UV p) const {
+  gp_Pnt S;
+  gp_Vec Su, Sv, Suu, Svv, Suv;
+  const double sign = mirrored_ ? -1.0 : 1.0;
+  geometry_->D2(p.u, sign * p.v, S, Su, Sv, Suu, Svv, Suv);
+  return {vec(S), vec(Su), sign * vec(Sv), vec(Suu), sign * vec(Suv), vec(Svv)};
+}
+
+SurfacePartials OcctSurface::partials(UV p) const {
+  SurfacePartials P;
+  const double sign = mirrored_ ? -1.0 : 1.0;
+  P(0, 0) = vec(geometry_->Value(p.u, sign * p.v));
+  for (int n = 1; n <= 4; ++n)
+    for (int j = 0; j <= n; ++j)
+      P(n - j, j) = (j % 2 == 1 ? sign : 1.0) * vec(geometry_->DN(p.u, sign * p.v, n - j, j));
+  return P;
+}
+
+FaceGeometry face_geometry(const TopoDS_Face& face) {
+  FaceGeometry f;
+  f.geometry = BRep_Tool::Surface(face);
+  while (const auto trimmed = handle<Geom_RectangularTrimmedSurface>::DownCast(f.geometry))
+    f.geometry = trimmed->BasisSurface();
+  f.reversed = face.Orientation() == TopAbs_REVERSED;
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0, g0 = 0, g1 = 0, h0 = 0, h1 = 0;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  f.geometry->Bounds(g0, g1, h0, h1);
+  const bool up = f.geometry->IsUPeriodic(), vp = f.geometry->IsVPeriodic();
+  const double pu = up ? f.geometry->UPeriod() : 0.0, pv = vp ? f.geometry->VPeriod() : 0.0;
+  f.box.u = clip(u0, u1, g0, g1, up, pu);
+  f.box.v = clip(v0, v1, h0, h1, vp, pv);
+  f.box.u_closed = up && f.box.u.length() >= pu;
+  f.box.v_closed = vp && f.box.v.length() >= pv;
+  return f;
+}
+
+Surface oriented_surface(const FaceGeometry& face) {
+  const auto spline = handle<Geom_BSplineSurface>::DownCast(face.geometry);
+  if (spline && !face.reversed) {
+    const auto whole = [](const Interval& a, const Interval& b) {
+      return std::abs(a.lo - b.lo) + std::abs(a.hi - b.hi) <= 1e-9 * b.length();
+    };
+    if (const auto ours = from_occt(spline))
+      if (whole(face.box.u, ours->domain().u) && whole(face.box.v, ours->domain().v)) return *ours;
+  }
+  SurfaceDomain box = face.box;
+  if (face.reversed) box.v = mirrored(box.v);
+  return OcctSurface(face.geometry, face.reversed, box);
+}
+
+std::string surface_kind(const handle<Geom_Surface>& geometry) {
+  switch (GeomAdaptor_Surface(geometry).GetType()) {
+    case GeomAbs_Plane:
+      return "plane";
+    case GeomAbs_Cylinder:
+      return "cylinder";
+    case GeomAbs_Cone:
+      return "cone";
+    case GeomAbs_Sphere:
+      return "sphere";
+    case GeomAbs_Torus:
+      return "torus";
+    case GeomAbs_BezierSurface:
+    case GeomAbs_BSplineSurface:
+      return "bspline";
+    case GeomAbs_SurfaceOfRevolution:
+      return "revolution";
+    case GeomAbs_SurfaceOfExtrusion:
+      return "extrusion";
+    default:
+      return "other";
+  }
+}
+
+std::string size_text(const FaceGeometry& face) {
+  const GeomAdaptor_Surface a(face.geometry);
+  const double turn = Radians(face.box.u.length()).degrees(), along = face.box.v.length();
+  switch (a.GetType()) {
+    case GeomAbs_Plane:
+      return number_text(face.box.u.length(), 6) + " x " + number_text(along, 6);
+    case GeomAbs_Cylinder:
+      return lengths("radius ", a.Cylinder().Radius()) + lengths(", length ", along) +
+             lengths(", turn ", turn) + " deg";
+    case GeomAbs_Cone: {
+      const double slope = std::sin(a.Cone().SemiAngle()), r = a.Cone().RefRadius();
+      return lengths("radius ", std::abs(r + face.box.v.lo * slope)) +
+             lengths(" to ", std::abs(r + face.box.v.hi * slope)) +
+             lengths(", half angle ", Radians(std::abs(a.Cone().SemiAngle())).degrees()) + " deg" +
+             lengths(", turn ", turn) + " deg";
+    }
+    case GeomAbs_Sphere:
+      return lengths("radius ", a.Sphere().Radius());
+    case GeomAbs_Torus:
+      return lengths("radii ", a.Torus().MajorRadius()) + lengths(" and ", a.Torus().MinorRadius());
+    case GeomAbs_BSplineSurface:
+      return "degree " + std::to_string(a.UDegree()) + " x " + std::to_string(a.VDegree()) + ", " +
+             std::to_string(a.NbUPoles()) + " x " + std::to_string(a.NbVPoles()) + " control points";
+    default:
+      return "";
+  }
+}
+
+std::optional<Vec2> elementary_parameters(const handle<Geom_Surface>& geometry, const Vec3& p) {
+  double u = 0.0, v = 0.0;
+  if (const auto g = handle<Geom_Plane>::DownCast(geometry))
+    ElSLib::Parameters(g->Pln(), pnt(p), u, v);
+  else if (const auto c = handle<Geom_CylindricalSurface>::DownCast(geometry))
+    ElSLib::Parameters(c->Cylinder(), pnt(p), u, v);
+  else if (const auto k = handle<Geom_ConicalSurface>::DownCast(geometry))
+    ElSLib::Parameters(k->Cone(), pnt(p), u, v);
+  else if (const auto s = handle<Geom_SphericalSurface>::DownCast(geometry))
+    ElSLib::Parameters(s->Sphere(), pnt(p), u, v);
+  else if (const auto t = handle<Geom_ToroidalSurface>::DownCast(geometry))
+    ElSLib::Parameters(t->Torus(), pnt(p), u, v);
+  else
+    return std::nullopt;
+  return Vec2(u, v);
+}
+
+bool same_elementary(const handle<Geom_Surface>& a, const handle<Geom_Surface>& b, double tolerance,
+                     double size) {
+  if (a->DynamicType() != b->DynamicType()) return false;
+  // Points of one, within `size` of its origin and not all on one circle, must lie on the other.
+  const bool angular = !a->IsKind(STANDARD_TYPE(Geom_Plane));
+  const bool round =
+      a->IsKind(STANDARD_TYPE(Geom_SphericalSurface)) || a->IsKind(STANDARD_TYPE(Geom_ToroidalSurface));
+  for (const double u : {-1.0, -0.3, 0.4, 1.1, 2.5})
+    for (const double v : {-1.0, 0.2, 0.9}) {
+      const Vec3 p = vec(a->Value(angular ? u : u * size, round ? v : v * size));
+      const auto uv = elementary_parameters(b, p);
+      if (!uv || (vec(b->Value(uv->x(), uv->y())) - p).norm() > tolerance) return false;
+    }
+  return true;
+}
+
+}  // namespace blendwright::detail

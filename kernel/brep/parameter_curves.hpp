@@ -1,0 +1,34 @@
+#pragma once
+// Private: curves in a surface's parameters that a periodic spline alone cannot express.
+#include <utility>
+
+#include "kernel/geometry/bspline.hpp"
+#include "kernel/geometry/curve.hpp"
+
+namespace blendwright::detail {
+
+/// start + rate (v - lo): isolines of elementary surfaces, exactly.
+struct ParameterLine {
+  Vec2 start = Vec2::Zero(), rate = Vec2::Zero();
+  CurveDomain box;
+  [[nodiscard]] CurveJet<2> jet(double v) const {
+    return {{start + rate * (v - box.v.lo), rate, Vec2::Zero(), Vec2::Zero()}};
+  }
+  [[nodiscard]] CurveDomain domain() const { return box; }
+};
+
+/// spline(v) + rate (v - lo): a curve that winds around a closed direction of its surface while v runs once
+/// through the period of the spline.
+struct WindingSpline {
+  BSplineCurve<2> spline;
+  Vec2 rate = Vec2::Zero();
+  [[nodiscard]] CurveJet<2> jet(double v) const {
+    CurveJet<2> j = spline.jet(v);
+    j.D[0] += rate * (v - domain().v.lo);
+    j.D[1] += rate;
+    return j;
+  }
+  [[nodiscard]] CurveDomain domain() const { return spline.domain(); }
+};
+
+}  // namespace blendwright::detail

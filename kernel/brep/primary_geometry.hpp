@@ -1,0 +1,28 @@
+#pragma once
+// Private: a primary as geometry of the CAD kernel.
+#include <Geom_Surface.hxx>
+
+#include "kernel/geometry/surface.hpp"
+
+namespace blendwright::detail {
+
+/// The geometry G and the map of parameters, S(u, v) = G(origin + map (u, v)).
+struct PrimaryGeometry {
+  opencascade::handle<Geom_Surface> geometry;
+  Eigen::Matrix2d map = Eigen::Matrix2d::Identity();
+  Vec2 origin = Vec2::Zero();
+  SurfaceDomain box;  ///< in G's parameters
+  [[nodiscard]] Vec2 operator()(const Vec2& uv) const { return origin + map * uv; }
+  /// G's normal is opposite to Su x Sv.
+  [[nodiscard]] bool flipped() const { return map.determinant() < 0.0; }
+};
+
+/// Plane, circular cylinder, cone, sphere, torus, B-splines and faces of a part keep their own geometry; any
+/// other surface becomes a B-spline within `tolerance` of it.
+[[nodiscard]] PrimaryGeometry primary_geometry(const Surface& surface, double tolerance);
+
+/// The same surface with the seams of its closed directions at `seams` (in the old parameters; where a
+/// direction is open, the value is not used).
+[[nodiscard]] PrimaryGeometry with_seams(const PrimaryGeometry& primary, const Vec2& seams);
+
+}  // namespace blendwright::detail
