@@ -12,11 +12,19 @@ using Series = Taylor<3>;
 using Series2 = std::array<Series, 2>;
 using Series3 = std::array<Series, 3>;
 
-[[nodiscard]] inline Series3 operator+(const Series3& a, const Series3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-[[nodiscard]] inline Series3 operator-(const Series3& a, const Series3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-[[nodiscard]] inline Series3 operator*(const Series& s, const Series3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+[[nodiscard]] inline Series3 operator+(const Series3& a, const Series3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+[[nodiscard]] inline Series3 operator-(const Series3& a, const Series3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+[[nodiscard]] inline Series3 operator*(const Series& s, const Series3& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
 [[nodiscard]] inline Series3 operator*(double s, const Series3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-[[nodiscard]] inline Series dot(const Series3& a, const Series3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+[[nodiscard]] inline Series dot(const Series3& a, const Series3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 [[nodiscard]] inline Series3 cross(const Series3& a, const Series3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -48,12 +56,14 @@ template <std::size_t Dim>
 [[nodiscard]] CurveJet<static_cast<int>(Dim)> to_jet(const std::array<Series, Dim>& s) {
   CurveJet<static_cast<int>(Dim)> jet;
   for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t d = 0; d < Dim; ++d) jet.D[k][static_cast<Eigen::Index>(d)] = s[d].derivative(static_cast<int>(k));
+    for (std::size_t d = 0; d < Dim; ++d)
+      jet.D[k][static_cast<Eigen::Index>(d)] = s[d].derivative(static_cast<int>(k));
   return jet;
 }
 
-/// The partial derivative d^{i+j} P / du^i dv^j of a surface along the parameter curve (u(h), v(h)) whose constant
-/// terms are the point where `P` was taken; exact to order min(3, 4 - i - j), higher coefficients are 0.
+/// The partial derivative d^{i+j} P / du^i dv^j of a surface along the parameter curve (u(h), v(h)) whose
+/// constant terms are the point where `P` was taken; exact to order min(3, 4 - i - j), higher coefficients
+/// are 0.
 [[nodiscard]] Series3 along(const SurfacePartials& P, int i, int j, const Series2& uv);
 
 }  // namespace blendwright

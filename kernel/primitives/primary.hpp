@@ -22,20 +22,20 @@ namespace blendwright {
 struct PrimarySpec {
   std::string kind{};                       ///< a name of the primaries table
   std::map<std::string, double> numbers{};  ///< by ParamInfo name
-  std::vector<std::string> formulas{};  ///< formula: S (3 texts in u, v); revolution: profile r, z (2 texts in
-                                      ///< u); extrusion: profile (3 texts in v)
-  std::vector<Vec3> points{};           ///< profile through points instead of formulas (revolution: (r, z, 0)),
-                                      ///< degree 5 from 6 points on, else 3, over chord length on [0, 1];
-                                      ///< or the control points of a bspline, row by row of equal u index
-  bool points_closed = false;         ///< the profile, through points or by formulas, closes smoothly
-  int point_rows = 0;                 ///< bspline: number of rows of points; 0: as the knots say
-  std::array<int, 2> degree{3, 3};    ///< bspline
-  std::array<std::vector<double>, 2> knots{};  ///< bspline: flat knot vectors, one period with both ends where
-                                             ///< closed; empty = uniform on [0, 1]
-  std::array<bool, 2> closed{false, false};  ///< bspline, formula: periodic directions
-  Vec3 direction = Vec3::UnitZ();            ///< extrusion; any length but 0
-  std::map<std::string, double> constants{};   ///< named constants of formulas
-  std::optional<Interval> u{}, v{};            ///< domain; default: the row's
+  std::vector<std::string> formulas{};  ///< formula: S (3 texts in u, v); revolution: profile r, z (2 texts
+                                        ///< in u); extrusion: profile (3 texts in v)
+  std::vector<Vec3> points{};       ///< profile through points instead of formulas (revolution: (r, z, 0)),
+                                    ///< degree 5 from 6 points on, else 3, over chord length on [0, 1];
+                                    ///< or the control points of a bspline, row by row of equal u index
+  bool points_closed = false;       ///< the profile, through points or by formulas, closes smoothly
+  int point_rows = 0;               ///< bspline: number of rows of points; 0: as the knots say
+  std::array<int, 2> degree{3, 3};  ///< bspline
+  std::array<std::vector<double>, 2> knots{};  ///< bspline: flat knot vectors, one period with both ends
+                                               ///< where closed; empty = uniform on [0, 1]
+  std::array<bool, 2> closed{false, false};   ///< bspline, formula: periodic directions
+  Vec3 direction = Vec3::UnitZ();             ///< extrusion; any length but 0
+  std::map<std::string, double> constants{};  ///< named constants of formulas
+  std::optional<Interval> u{}, v{};           ///< domain; default: the row's
   RigidMotion placement{};
 };
 
