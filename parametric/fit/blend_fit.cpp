@@ -1,3 +1,153 @@
 #include "parametric/fit/blend_fit.hpp"
 
-namespace blendwright {}
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernel/base/number_text.hpp"
+#include "parametric/fit/boundary_fit.hpp"
+#include "parametric/fit/cardinal_fit.hpp"
+#include "parametric/fit/tensor_fit.hpp"
+
+namespace blendwright {
+namespace {
+
+using namespace detail;
+using Eigen::Index;
+
+// The part of the tolerance each direction may use; the rest covers that sizes are known only after the fit.
+constexpr double share_u = 0.4, share_v = 0.5;
+constexpr double trimline_margin =
+    0.5;  // the sampled angle and curvature may miss a little between the samples
+
+void check(const BlendFitOptions& options) {
+  std::vector<Problem> problems;
+  const auto positive = [&](const char* where, double x) {
+    if (!(x > 0.0)) problems.push_back({where, "is " + number_text(x) + ", must be > 0"});
+  };
+  positive("position", options.position);
+  positive("angle", options.angle.value);
+  positive("curvature", options.curvature);
+  positive("max_control_points", options.max_control_points);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+// The rows B_k after the mode is applied (formula sheet 2.4), from the data E_k.
+std::array<Vec3, 6> mode_rows(const std::array<Vec3, 6>& E, const OdeBlend& blend) {
+  std::array<Vec3, 6> B = E;
+  if (blend.shape().mode != BlendMode::chord) return B;
+  const std::size_t half = static_cast<std::size_t>(blend.order()) / 2;
+  const Vec3 De = E[half] - E[0];
+  B[0].setZero();
+  B[half].setZero();
+  B[1] -= De;
+  B[half + 1] -= De;
+  return B;
+}
+
+void take_larger(std::vector<PerFunction>& size, const std::array<Vec3, 6>& B,
+                 const std::vector<ComponentGroup>& groups, std::size_t count) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t k = 0; k < count; ++k) size[g][k] = std::max(size[g][k], groups[g].norm(B[k]));
+}
+
+// sup |B_k| from samples: enough to choose spans by.
+std::vector<PerFunction> sampled_row_sizes(const OdeBlend& blend, const std::vector<ComponentGroup>& groups) {
+  std::vector<PerFunction> size(groups.size(), PerFunction{});
+  const BoundarySampler sample(blend);
+  for (int i = 0; i <= 16; ++i)
+    take_larger(size, mode_rows(sample(blend.domain().v.at(i / 16.0)).d[0], blend), groups, sample.count());
+  return size;
+}
+
+// sup |B_k| from above: a spline stays in the hull of its control values, and B_k within its error of the
+// spline.
+std::vector<PerFunction> proven_row_sizes(const OdeBlend& blend, const std::vector<ComponentGroup>& groups,
+                                          const BoundaryFit& fit) {
+  std::vector<PerFunction> size(groups.size(), PerFunction{});
+  const std::size_t count = static_cast<std::size_t>(blend.order()), half = count / 2;
+  for (Index j = 0; j < fit.beta.rows(); ++j) {
+    std::array<Vec3, 6> E;
+    for (std::size_t k = 0; k < count; ++k)
+      E[k] = fit.beta.block<1, 3>(j, 3 * static_cast<Index>(k)).transpose();
+    take_larger(size, mode_rows(E, blend), groups, count);
+  }
+  const bool chord = blend.shape().mode == BlendMode::chord;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t k = 0; k < count; ++k) {
+      const bool position = k == 0 || k == half, tangent = k == 1 || k == half + 1;
+      if (chord && position) continue;  // the row is 0
+      size[g][k] += fit.error[g][k] + (chord && tangent ? fit.error[g][0] + fit.error[g][half] : 0.0);
+    }
+  return size;
+}
+
+BSplineSurface net(const OdeBlend& blend, const std::vector<ComponentGroup>& groups,
+                   const CardinalFit& across, const BoundaryFit& along) {
+  const Index nu = across.basis.count(), nv = along.basis.count(), count = blend.order();
+  const bool turned = blend.shape().frame == BlendFrame::fixed;
+  const Vec3 anchor = blend.shape().mode == BlendMode::anchor ? blend.shape().anchor : Vec3::Zero();
+  std::vector<Vec3> control(static_cast<std::size_t>(nu * nv));
+  for (Index i = 0; i < nu; ++i)
+    for (Index j = 0; j < nv; ++j) {
+      Vec3 P = Vec3::Zero();
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        for (int x = groups[g].first; x < groups[g].last; ++x)
+          for (Index k = 0; k < count; ++k) P[x] += across.alpha[g](i, k) * along.beta(j, 3 * k + x);
+      if (turned) P = (blend.shape().axes * P).eval();
+      control[static_cast<std::size_t>(i * nv + j)] = P + anchor;
+    }
+  return {across.basis, along.basis, std::move(control)};
+}
+
+// Largest factor by which a size grew; 1 when none did.
+double growth(const std::vector<PerFunction>& before, const std::vector<PerFunction>& after) {
+  double factor = 1.0;
+  for (std::size_t g = 0; g < before.size(); ++g)
+    for (std::size_t k = 0; k < before[g].size(); ++k)
+      if (before[g][k] > 0.0) factor = std::max(factor, after[g][k] / before[g][k]);
+  return factor;
+}
+
+BlendFit fit_separable(const OdeBlend& blend, const BlendFitOptions& options, const Progress& progress) {
+  const std::vector<ComponentGroup> groups = component_groups(blend);
+  const int most = options.max_control_points,
+            ends = blend.domain().v_closed ? 0 : 5;  // controls beyond the spans
+  progress.at(0.1, "fitting the blend across");
+  double target_u = share_u * options.position;
+  CardinalFit across = fit_cardinals(blend, groups, sampled_row_sizes(blend, groups), target_u, most / 6);
+  const BoundaryTarget target{share_v * options.position, trimline_margin * options.angle.value,
+                              trimline_margin * options.curvature,
+                              std::max(1, most / across.basis.count() - ends)};
+  const BoundaryFit along = fit_boundary(blend, groups, across.size, target, progress);
+  const std::vector<PerFunction> rows = proven_row_sizes(blend, groups, along), size = across.size;
+  double error_u = weighted_error(across, rows), error_v = along.position;
+  while (!(error_u + error_v <= options.position)) {  // the sampled sizes were too small to choose spans by
+    target_u *= 0.5;
+    across = fit_cardinals(blend, groups, rows, target_u, most / 6);
+    error_u = weighted_error(across, rows);
+    error_v = along.position * growth(size, across.size);
+  }
+  const int controls = across.basis.count() * along.basis.count();
+  if (controls > most)
+    throw ConvergenceError("blend fit: " + std::to_string(controls) +
+                           " control points reach position bound " + scientific_text(error_u + error_v) +
+                           "; at most " + std::to_string(most) + " are allowed");
+  progress.at(1.0, "fitting the blend");
+  const BlendFitReport report{error_u + error_v,  // (1)
+                              Radians(along.angle),
+                              along.curvature,
+                              static_cast<int>(across.basis.breaks().size()) - 1,
+                              static_cast<int>(along.basis.breaks().size()) - 1,
+                              controls};
+  return {net(blend, groups, across, along), report};
+}
+
+}  // namespace
+
+BlendFit fit_blend(const OdeBlend& blend, const BlendFitOptions& options, const Progress& progress) {
+  check(options);
+  return blend.separable() ? fit_separable(blend, options, progress) : fit_tensor(blend, options, progress);
+}
+
+}  // namespace blendwright
