@@ -2,6 +2,7 @@
 // Small strong types where a mix-up would compile silently: angles, parameter points, intervals.
 // Lengths are plain double in model units; the unit is named once, in the job and in the STEP header.
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <numbers>
 
 namespace blendwright {
