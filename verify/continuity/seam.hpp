@@ -43,8 +43,8 @@ struct Deviation {
 struct Seam {
   std::string name{};  ///< e.g. "fillet/from"
   Surface blend;
-  int side = 0;                    ///< 0: the edge u = lo, 1: the edge u = hi of the blend
-  std::optional<Surface> primary{};///< empty: there is nothing to measure against
+  int side = 0;                      ///< 0: the edge u = lo, 1: the edge u = hi of the blend
+  std::optional<Surface> primary{};  ///< empty: there is nothing to measure against
   std::optional<Curve2>
       pcurve{};           ///< trimline on the primary, on the blend's v; empty: closest points are searched
   bool kept_left = true;  ///< the kept part of the primary lies towards nP x C'
@@ -68,7 +68,8 @@ struct SeamOptions {
   /// Along v: both ends, and between them equal steps shifted by the golden ratio, so that no sample is a
   /// knot of a uniform spline, where interpolation errors vanish.
   int samples = 2048;
-  bool refine = true;  ///< each sampled worst is refined between its neighbours by golden section
+  bool refine = true;  ///< each sampled worst is refined between its neighbours, by golden section with
+                       ///< parabolic steps
 };
 
 /// Never throws because the geometry is bad: bad geometry is the result (NaN counts as worst). The same

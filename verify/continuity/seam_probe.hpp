@@ -20,6 +20,7 @@ class SeamProbe {
   /// `guess` starts the search for the foot where there is no pcurve; without it the search is global.
   [[nodiscard]] SeamSample measure(double v, std::optional<UV> guess) const;
   [[nodiscard]] Interval domain() const { return domain_; }
+  [[nodiscard]] double length() const { return length_; }  ///< of the blend's edge, about
 
  private:
   struct Place {
@@ -37,7 +38,7 @@ class SeamProbe {
   const Surface& primary_;
   Interval domain_;
   double u_ = 0.0;
-  double length_ = 0.0;  ///< of the edge, about: mean |Sv| times the length of the domain
+  double length_ = 0.0;  ///< mean |Sv| times the length of the domain
   double area_ = 0.0;    ///< mean |Su| times mean |Sv|
 };
 

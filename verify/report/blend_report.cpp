@@ -1,6 +1,7 @@
 #include "verify/report/blend_report.hpp"
 
-#include "verify/surface/jet_grid.hpp"
+#include "verify/continuity/paired_seams.hpp"
+#include "verify/surface/sample_grid.hpp"
 
 namespace blendwright {
 namespace {
@@ -14,7 +15,7 @@ Progress part(const Progress& whole, int k, int parts) {
 }
 
 void check_surface(const BlendUnderTest& under_test, const VerifyOptions& options, BlendReport& report) {
-  const detail::JetGrid grid(under_test.blend, options.nu, options.nv);
+  const detail::SampleGrid grid(under_test.blend, options.nu, options.nv);
   report.fold = detail::fold(under_test.blend, grid);
   report.minimum_radius = detail::minimum_radius(under_test.blend, grid);
   for (std::size_t side = 0; side < 2; ++side)
@@ -30,9 +31,7 @@ BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, 
   BlendReport report;
   report.name = blend.name;
   report.stage = stage;
-  for (std::size_t side = 0; side < 2; ++side)
-    report.seams[side] =
-        check_seam(blend.seams[side], options.seam, part(progress, static_cast<int>(side), 3));
+  report.seams = detail::check_paired_seams(blend.seams, options.seam, part(progress, 0, 2));
   if (blend.closed) report.closing = check_closing(blend.blend);
   report.surface_checked = options.surface_checks;
   if (options.surface_checks) check_surface(blend, options, report);

@@ -8,7 +8,7 @@
 #include "kernel/geometry/curvature.hpp"
 #include "kernel/geometry/project.hpp"
 #include "verify/surface/compass_search.hpp"
-#include "verify/surface/jet_grid.hpp"
+#include "verify/surface/sample_grid.hpp"
 
 namespace blendwright {
 namespace detail {
@@ -33,7 +33,7 @@ SignedFoot signed_foot(const Surface& primary, const Vec3& q, std::optional<UV> 
 // Heights of the blend's samples above a primary. Row 0 is the joint, the last row the far end.
 class Heights {
  public:
-  Heights(const JetGrid& grid, int stride, const Seam& seam) {
+  Heights(const SampleGrid& grid, int stride, const Seam& seam) {
     for (int j = 0; j <= grid.nv(); j += stride) columns_.push_back(j);
     for (int i = 0; i <= grid.nu(); i += stride) rows_.push_back(seam.side == 0 ? i : grid.nu() - i);
     feet_.resize(rows_.size() * columns_.size());
@@ -49,7 +49,7 @@ class Heights {
         }
         std::optional<UV> guess = base;
         for (std::size_t r = 0; r < rows_.size(); ++r) {
-          foot(r, c) = signed_foot(*seam.primary, grid.jet(rows_[r], columns_[c]).S, guess);
+          foot(r, c) = signed_foot(*seam.primary, grid.point(rows_[r], columns_[c]), guess);
           guess = foot(r, c).at;
           if (r == 0) base = guess;
         }
@@ -62,7 +62,7 @@ class Heights {
   [[nodiscard]] const SignedFoot& foot(std::size_t r, std::size_t c) const {
     return feet_[r * columns_.size() + c];
   }
-  [[nodiscard]] UV uv(const JetGrid& grid, std::size_t r, std::size_t c) const {
+  [[nodiscard]] UV uv(const SampleGrid& grid, std::size_t r, std::size_t c) const {
     return grid.uv(rows_[r], columns_[c]);
   }
 
@@ -91,11 +91,11 @@ class Heights {
 
 }  // namespace
 
-PenetrationReport penetration(const Surface& blend, const JetGrid& grid, int stride, const Seam& seam) {
+PenetrationReport penetration(const Surface& blend, const SampleGrid& grid, int stride, const Seam& seam) {
   for (int j = 0; j <= grid.nv(); ++j)
     for (int i = 0; i <= grid.nu(); ++i)
-      if (!grid.jet(i, j).S.allFinite())
-        return {true, {std::numeric_limits<double>::quiet_NaN(), grid.uv(i, j), grid.jet(i, j).S}};
+      if (!grid.point(i, j).allFinite())
+        return {true, {std::numeric_limits<double>::quiet_NaN(), grid.uv(i, j), grid.point(i, j)}};
 
   const Heights heights(grid, stride, seam);
   // Far ends that lie on the primary itself (two trimlines on one surface) do not tell the side.
@@ -130,7 +130,7 @@ PenetrationReport penetration(const Surface& blend, const JetGrid& grid, int str
 PenetrationReport check_penetration(const Surface& blend, int primary_side, const Surface& primary, int nu,
                                     int nv) {
   const Seam seam{{}, blend, primary_side, primary, std::nullopt, true};
-  return detail::penetration(blend, detail::JetGrid(blend, nu, nv), 1, seam);
+  return detail::penetration(blend, detail::SampleGrid(blend, nu, nv), 1, seam);
 }
 
 }  // namespace blendwright

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kernel/base/parallel_for.hpp"
-#include "verify/surface/jet_grid.hpp"
+#include "verify/surface/sample_grid.hpp"
 #include "verify/surface/triangle_crossing.hpp"
 
 namespace blendwright {
@@ -44,7 +44,7 @@ struct NodePair {
 
 class CellTree {
  public:
-  explicit CellTree(const JetGrid& grid) : grid_(grid) {
+  explicit CellTree(const SampleGrid& grid) : grid_(grid) {
     nodes_.reserve(2 * static_cast<std::size_t>(grid.nu()) * static_cast<std::size_t>(grid.nv()));
     build(0, grid.nu(), 0, grid.nv());
     wraps_u_ = grid.domain().u_closed || borders_meet_in_u();
@@ -69,7 +69,7 @@ class CellTree {
   }
 
  private:
-  [[nodiscard]] const Vec3& point(int i, int j) const { return grid_.jet(i, j).S; }
+  [[nodiscard]] const Vec3& point(int i, int j) const { return grid_.point(i, j); }
 
   // A surface may close without saying so (a face read from a file).
   [[nodiscard]] bool borders_meet_in_u() const {
@@ -197,25 +197,25 @@ class CellTree {
                    (pierced.uv[0].v + pierced.uv[1].v + pierced.uv[2].v) / 3.0};
   }
 
-  const JetGrid& grid_;
+  const SampleGrid& grid_;
   std::vector<Node> nodes_;
   bool wraps_u_ = false, wraps_v_ = false;
 };
 
 }  // namespace
 
-SelfIntersectionReport self_intersection(const JetGrid& grid) {
+SelfIntersectionReport self_intersection(const SampleGrid& grid) {
   for (int j = 0; j <= grid.nv(); ++j)
     for (int i = 0; i <= grid.nu(); ++i)
-      if (!grid.jet(i, j).S.allFinite())
-        return {0, {std::numeric_limits<double>::quiet_NaN(), grid.uv(i, j), grid.jet(i, j).S}, {}};
+      if (!grid.point(i, j).allFinite())
+        return {0, {std::numeric_limits<double>::quiet_NaN(), grid.uv(i, j), grid.point(i, j)}, {}};
   return CellTree(grid).search();
 }
 
 }  // namespace detail
 
 SelfIntersectionReport check_self_intersection(const Surface& blend, int nu, int nv) {
-  return detail::self_intersection(detail::JetGrid(blend, nu, nv));
+  return detail::self_intersection(detail::SampleGrid(blend, nu, nv));
 }
 
 }  // namespace blendwright

@@ -6,7 +6,7 @@
 
 #include "kernel/geometry/curvature.hpp"
 #include "verify/surface/compass_search.hpp"
-#include "verify/surface/jet_grid.hpp"
+#include "verify/surface/sample_grid.hpp"
 
 namespace blendwright {
 namespace detail {
@@ -36,10 +36,10 @@ bool folds_between(const Surface& blend, UV a, Vec3 na, UV b, Vec3 nb) {
 
 class FoldSearch {
  public:
-  FoldSearch(const Surface& blend, const JetGrid& grid) : blend_(blend), grid_(grid) {
+  FoldSearch(const Surface& blend, const SampleGrid& grid) : blend_(blend), grid_(grid) {
     report_.smallest_area.value = std::numeric_limits<double>::infinity();
     for (int j = 0; j <= grid.nv(); ++j)
-      for (int i = 0; i <= grid.nu(); ++i) normals_.push_back(normal_of(grid.jet(i, j)));
+      for (int i = 0; i <= grid.nu(); ++i) normals_.push_back(normal_of(grid.at(i, j)));
     for (int j = 0; j <= grid.nv(); ++j)
       for (int i = 0; i <= grid.nu(); ++i) {
         if (i > 0 && i < grid.nu()) add_area(i, j);
@@ -50,23 +50,20 @@ class FoldSearch {
   [[nodiscard]] FoldReport report() const { return report_; }
 
  private:
-  // Rounding leaves a direction where there is no normal, so the area decides, not unit_normal.
-  [[nodiscard]] Vec3 normal_of(const SurfaceJet& jet) const {
-    const Vec3 n = jet.Su.cross(jet.Sv);
-    const double area = n.norm();
-    return area <= 1e-9 * grid_.mean_area() ? Vec3(Vec3::Zero()) : Vec3(n / area);
+  // Rounding leaves a direction where there is no normal, so the area decides.
+  [[nodiscard]] Vec3 normal_of(const SampleGrid::Sample& sample) const {
+    return sample.area <= 1e-9 * grid_.mean_area() ? Vec3(Vec3::Zero()) : sample.n;
   }
   [[nodiscard]] const Vec3& normal(int i, int j) const {
     return normals_[static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.nu() + 1) +
                     static_cast<std::size_t>(i)];
   }
   void add_area(int i, int j) {
-    const SurfaceJet& jet = grid_.jet(i, j);
     // 0/0 where nothing moves at all is as degenerate as can be, not unknown.
-    const double area = grid_.mean_area() == 0.0 ? 0.0 : jet.Su.cross(jet.Sv).norm() / grid_.mean_area();
+    const double area = grid_.mean_area() == 0.0 ? 0.0 : grid_.at(i, j).area / grid_.mean_area();
     const bool worse =
         area < report_.smallest_area.value || (std::isnan(area) && !std::isnan(report_.smallest_area.value));
-    if (worse) report_.smallest_area = {area, grid_.uv(i, j), jet.S};
+    if (worse) report_.smallest_area = {area, grid_.uv(i, j), grid_.point(i, j)};
   }
   void add_turn(int i, int j, int k, int l) {
     const Vec3 &a = normal(i, j), &b = normal(k, l);
@@ -75,39 +72,31 @@ class FoldSearch {
     const double cosine = a.dot(b);
     if (cosine < sharpest_) {
       sharpest_ = cosine;
-      report_.where = {turn(a, b), between(grid_.uv(i, j), grid_.uv(k, l)), grid_.jet(i, j).S};
+      report_.where = {turn(a, b), between(grid_.uv(i, j), grid_.uv(k, l)), grid_.point(i, j)};
     }
     if (cosine < 0.0 && folds_between(blend_, grid_.uv(i, j), a, grid_.uv(k, l), b)) ++report_.folded;
   }
 
   const Surface& blend_;
-  const JetGrid& grid_;
+  const SampleGrid& grid_;
   std::vector<Vec3> normals_;
   FoldReport report_;
   double sharpest_ = 1.0;
 };
 
-// Largest |principal curvature|; -1 where a finite jet has no normal, NaN where the jet is not finite.
-double bend(const SurfaceJet& jet) {
-  if (!(jet.Su + jet.Sv + jet.Suu + jet.Suv + jet.Svv).allFinite()) return nan;
-  if (unit_normal(jet).isZero(0.0)) return -1.0;
-  const SurfaceCurvature k = curvature(jet);
-  return std::max(std::abs(k.k_min), std::abs(k.k_max));
-}
-
 }  // namespace
 
-FoldReport fold(const Surface& blend, const JetGrid& grid) { return FoldSearch(blend, grid).report(); }
+FoldReport fold(const Surface& blend, const SampleGrid& grid) { return FoldSearch(blend, grid).report(); }
 
-Extreme minimum_radius(const Surface& blend, const JetGrid& grid) {
+Extreme minimum_radius(const Surface& blend, const SampleGrid& grid) {
   PeakUV sharpest{{}, -1.0};
   for (int j = 0; j <= grid.nv(); ++j)
     for (int i = 0; i <= grid.nu(); ++i) {
-      const double k = bend(grid.jet(i, j));
-      if (std::isnan(k)) return {k, grid.uv(i, j), grid.jet(i, j).S};
+      const double k = grid.at(i, j).bend;
+      if (std::isnan(k)) return {k, grid.uv(i, j), grid.point(i, j)};
       if (k > sharpest.value) sharpest = {grid.uv(i, j), k};
     }
-  if (sharpest.value < 0.0) return {nan, grid.uv(0, 0), grid.jet(0, 0).S};
+  if (sharpest.value < 0.0) return {nan, grid.uv(0, 0), grid.point(0, 0)};
   const SurfaceDomain& domain = grid.domain();
   sharpest = compass_maximum([&](UV at) { return bend(blend.jet(at)); }, domain, sharpest,
                              0.5 * domain.u.length() / grid.nu(), 0.5 * domain.v.length() / grid.nv());
@@ -117,11 +106,11 @@ Extreme minimum_radius(const Surface& blend, const JetGrid& grid) {
 }  // namespace detail
 
 FoldReport check_fold(const Surface& blend, int nu, int nv) {
-  return detail::fold(blend, detail::JetGrid(blend, nu, nv));
+  return detail::fold(blend, detail::SampleGrid(blend, nu, nv));
 }
 
 Extreme minimum_radius(const Surface& blend, int nu, int nv) {
-  return detail::minimum_radius(blend, detail::JetGrid(blend, nu, nv));
+  return detail::minimum_radius(blend, detail::SampleGrid(blend, nu, nv));
 }
 
 }  // namespace blendwright

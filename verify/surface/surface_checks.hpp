@@ -30,11 +30,11 @@ struct FoldReport {
                   ///< confirmed by bisection to a thousandth of the cell: a fold or a crease
   Extreme where;  ///< the sharpest turn between neighbours: value = angle in radians
 };
-[[nodiscard]] FoldReport check_fold(const Surface& blend, int nu = 32, int nv = 128);
+[[nodiscard]] FoldReport check_fold(const Surface& blend, int nu = 24, int nv = 128);
 
 /// Smallest radius of curvature 1/max(|k1|, |k2|), refined to a local minimum; infinite for a plane. Places
 /// without a normal are skipped; NaN when there is no other.
-[[nodiscard]] Extreme minimum_radius(const Surface& blend, int nu = 32, int nv = 128);
+[[nodiscard]] Extreme minimum_radius(const Surface& blend, int nu = 24, int nv = 128);
 
 /// Does the blend cross a primary? Signed distances from the primary are taken at the samples whose closest
 /// point lies inside the primary's domain; the whole domain counts, the part that the trimline cuts away too.
@@ -47,7 +47,7 @@ struct PenetrationReport {
 };
 /// `primary_side` 0: the primary joins the edge u = lo of the blend, 1: u = hi.
 [[nodiscard]] PenetrationReport check_penetration(const Surface& blend, int primary_side,
-                                                  const Surface& primary, int nu = 16, int nv = 64);
+                                                  const Surface& primary, int nu = 12, int nv = 64);
 
 /// Triangles of a mesh of the blend that pass through each other. Triangles of the same or of neighbouring
 /// cells are not compared (their trouble is a fold), and a mere touch does not count. O(n log n) in the
@@ -57,7 +57,7 @@ struct SelfIntersectionReport {
   Extreme where;  ///< the deepest: value = how far an edge reaches beyond the other triangle, model units
   UV other;       ///< the other place of the blend that passes there
 };
-[[nodiscard]] SelfIntersectionReport check_self_intersection(const Surface& blend, int nu = 32, int nv = 128);
+[[nodiscard]] SelfIntersectionReport check_self_intersection(const Surface& blend, int nu = 24, int nv = 128);
 
 /// Closed blends: largest mismatch across v.lo = v.hi of S, of the tangent plane, and of the normal curvature
 /// across that line (against one normal). Both sides are limits from inside, so a parameter that wraps hides
