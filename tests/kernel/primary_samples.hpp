@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/primitives/primary.hpp"
+#include "tests/support/for_all.hpp"
 
 namespace blendwright::test {
 
@@ -101,6 +102,11 @@ inline std::vector<Sample> samples_of(std::string_view kind) {
   add(typed({"u", "v", "0.2*u^2 - 0.1*v^2"}, {-1, 1}, {-1, 1}),
       [](const Vec3& p) { return p[2] - 0.2 * p[0] * p[0] + 0.1 * p[1] * p[1]; });
   return samples;
+}
+
+inline UV random_inside(Rng& rng, const SurfaceDomain& d) {
+  // Differences reach 2 / 500 of the range to each side; spline profiles end at their border.
+  return {d.u.at(uniform(rng, 0.02, 0.98)), d.v.at(uniform(rng, 0.02, 0.98))};
 }
 
 }  // namespace blendwright::test

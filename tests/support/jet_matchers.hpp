@@ -25,8 +25,7 @@ inline constexpr double difference_error = 1e-6;
 
 /// Largest error of the jet at p against differences of positions and of first derivatives, relative to the
 /// size of the derivatives there, all measured per parameter range.
-template <class S>
-double jet_error(const S& surface, UV p) {
+inline double jet_error(const Surface& surface, UV p) {
   const SurfaceDomain d = surface.domain();
   const double lu = d.u.length(), lv = d.v.length();
   const SurfaceJet j = surface.jet(p);
@@ -49,8 +48,7 @@ double jet_error(const S& surface, UV p) {
 
 /// The same for all partials up to order 4: those of order <= 2 must be the jet's, the others agree with
 /// differences of the next lower order.
-template <class S>
-double partials_error(const S& surface, UV p) {
+inline double partials_error(const Surface& surface, UV p) {
   const SurfaceDomain d = surface.domain();
   const double lu = d.u.length(), lv = d.v.length();
   const SurfacePartials P = surface.partials(p);
