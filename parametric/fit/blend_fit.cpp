@@ -7,6 +7,7 @@
 #include "kernel/base/number_text.hpp"
 #include "parametric/fit/boundary_fit.hpp"
 #include "parametric/fit/cardinal_fit.hpp"
+#include "parametric/fit/span_plan.hpp"
 #include "parametric/fit/tensor_fit.hpp"
 
 namespace blendwright {
@@ -15,8 +16,11 @@ namespace {
 using namespace detail;
 using Eigen::Index;
 
-// The part of the tolerance each direction may use; the rest covers that sizes are known only after the fit.
-constexpr double share_u = 0.4, share_v = 0.5;
+constexpr int degree = 5;
+// The part of the tolerance that the direction along may use, and the part of what it leaves that across may
+// use: along is often finer than its part for the sake of the angle. The rest covers that sizes are known
+// only after the fit.
+constexpr double share_v = 0.5, share_u = 0.9;
 constexpr double trimline_margin =
     0.5;  // the sampled angle and curvature may miss a little between the samples
 
@@ -51,12 +55,20 @@ void take_larger(std::vector<PerFunction>& size, const std::array<Vec3, 6>& B,
     for (std::size_t k = 0; k < count; ++k) size[g][k] = std::max(size[g][k], groups[g].norm(B[k]));
 }
 
-// sup |B_k| from samples: enough to choose spans by.
-std::vector<PerFunction> sampled_row_sizes(const OdeBlend& blend, const std::vector<ComponentGroup>& groups) {
+// sup |psi_k| (cardinal_fit.hpp (1)) from samples: enough to choose spans by.
+std::vector<PerFunction> sampled_function_sizes(const OdeBlend& blend,
+                                                const std::vector<ComponentGroup>& groups) {
   std::vector<PerFunction> size(groups.size(), PerFunction{});
-  const BoundarySampler sample(blend);
-  for (int i = 0; i <= 16; ++i)
-    take_larger(size, mode_rows(sample(blend.domain().v.at(i / 16.0)).d[0], blend), groups, sample.count());
+  const std::size_t count = static_cast<std::size_t>(blend.order()), half = count / 2;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (double u : graded_breaks(blend.basis(groups[g].first).stiffness(), 32)) {
+      PerFunction psi = blend.basis(groups[g].first)(u).value[0];
+      if (blend.shape().mode == BlendMode::chord) {
+        psi[0] = 1.0 - u + psi[1] + psi[half + 1];
+        psi[half] = 1.0 - psi[0];
+      }
+      for (std::size_t k = 0; k < count; ++k) size[g][k] = std::max(size[g][k], std::abs(psi[k]));
+    }
   return size;
 }
 
@@ -109,38 +121,48 @@ double growth(const std::vector<PerFunction>& before, const std::vector<PerFunct
   return factor;
 }
 
+struct TwoFits {
+  CardinalFit across;
+  BoundaryFit along;
+  double bound = 0.0;  // (1)
+};
+
+// One pass; sizes that turn out too small leave a bound above the tolerance.
+TwoFits fit_both(const OdeBlend& blend, const std::vector<ComponentGroup>& groups,
+                 const std::vector<PerFunction>& size, const BlendFitOptions& options, double share,
+                 const Progress& progress) {
+  const int most = options.max_control_points, ends = blend.domain().v_closed ? 0 : degree;
+  const BoundaryTarget target{share_v * options.position, trimline_margin * options.angle.value,
+                              trimline_margin * options.curvature, std::max(1, most / (degree + 1) - ends)};
+  BoundaryFit along = fit_boundary(blend, groups, size, target, progress);
+  progress.at(0.9, "fitting the blend across");
+  const std::vector<PerFunction> rows = proven_row_sizes(blend, groups, along);
+  const double target_u = share * (options.position - along.position);
+  CardinalFit across =
+      fit_cardinals(blend, groups, rows, target_u, std::max(1, most / along.basis.count() - degree));
+  const double bound = weighted_error(across, rows) + along.position * growth(size, across.size);
+  return {std::move(across), std::move(along), bound};
+}
+
 BlendFit fit_separable(const OdeBlend& blend, const BlendFitOptions& options, const Progress& progress) {
   const std::vector<ComponentGroup> groups = component_groups(blend);
-  const int most = options.max_control_points,
-            ends = blend.domain().v_closed ? 0 : 5;  // controls beyond the spans
-  progress.at(0.1, "fitting the blend across");
-  double target_u = share_u * options.position;
-  CardinalFit across = fit_cardinals(blend, groups, sampled_row_sizes(blend, groups), target_u, most / 6);
-  const BoundaryTarget target{share_v * options.position, trimline_margin * options.angle.value,
-                              trimline_margin * options.curvature,
-                              std::max(1, most / across.basis.count() - ends)};
-  const BoundaryFit along = fit_boundary(blend, groups, across.size, target, progress);
-  const std::vector<PerFunction> rows = proven_row_sizes(blend, groups, along), size = across.size;
-  double error_u = weighted_error(across, rows), error_v = along.position;
-  while (!(error_u + error_v <= options.position)) {  // the sampled sizes were too small to choose spans by
-    target_u *= 0.5;
-    across = fit_cardinals(blend, groups, rows, target_u, most / 6);
-    error_u = weighted_error(across, rows);
-    error_v = along.position * growth(size, across.size);
-  }
-  const int controls = across.basis.count() * along.basis.count();
-  if (controls > most)
+  TwoFits fits = fit_both(blend, groups, sampled_function_sizes(blend, groups), options, share_u, progress);
+  const Progress silent{[](double, std::string_view) {}, progress.stop};
+  for (double share = 0.5 * share_u; !(fits.bound <= options.position); share *= 0.5)
+    fits = fit_both(blend, groups, std::vector<PerFunction>(fits.across.size), options, share, silent);
+  const int controls = fits.across.basis.count() * fits.along.basis.count();
+  if (controls > options.max_control_points)
     throw ConvergenceError("blend fit: " + std::to_string(controls) +
-                           " control points reach position bound " + scientific_text(error_u + error_v) +
-                           "; at most " + std::to_string(most) + " are allowed");
+                           " control points reach position bound " + scientific_text(fits.bound) +
+                           "; at most " + std::to_string(options.max_control_points) + " are allowed");
   progress.at(1.0, "fitting the blend");
-  const BlendFitReport report{error_u + error_v,  // (1)
-                              Radians(along.angle),
-                              along.curvature,
-                              static_cast<int>(across.basis.breaks().size()) - 1,
-                              static_cast<int>(along.basis.breaks().size()) - 1,
+  const BlendFitReport report{fits.bound,
+                              Radians(fits.along.angle),
+                              fits.along.curvature,
+                              static_cast<int>(fits.across.basis.breaks().size()) - 1,
+                              static_cast<int>(fits.along.basis.breaks().size()) - 1,
                               controls};
-  return {net(blend, groups, across, along), report};
+  return {net(blend, groups, fits.across, fits.along), report};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double largest_ratio = 4.0;  // neighbouring spans: very uneven knots upset some STEP receivers
 constexpr double even_enough = 1.6;    // largest over mean need up to which the pattern of the breaks is kept
-constexpr double reserve = 1.05;       // the estimated order is reached only in the limit
+constexpr double reserve = 1.02;       // the estimated order is reached only in the limit
 constexpr double most_per_round = 4.0;  // early errors are not yet asymptotic
 constexpr double least_per_round = 0.4;
 
