@@ -94,7 +94,7 @@ Blend make_blend(const Trimline& line0, const Trimline& line1, const BlendSpec& 
   // With a conormal tangent the sine is cos psi >= 1/2; only a chord can run along its trimline.
   for (std::size_t i = 0; i < 2; ++i)
     if (spec.sides[i].continuity == Continuity::G0) warn_of_small_angles(tangents.ends[i], i, warnings);
-  if (lines.twist > degrees(75.0).value)
+  if (lines.twist > degrees(40.0).value)
     warnings.push_back("the connecting lines are twisted by up to " +
                        number_text(Radians(lines.twist).degrees(), 3) +
                        " deg; check the direction and the seam of the trimlines");

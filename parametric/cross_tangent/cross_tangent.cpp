@@ -9,6 +9,7 @@
 #include "kernel/base/number_text.hpp"
 #include "parametric/cross_tangent/magnitude.hpp"
 #include "parametric/cross_tangent/side_frame.hpp"
+#include "parametric/trimline/along_curve.hpp"
 #include "parametric/trimline/line_point.hpp"
 
 namespace blendwright {
@@ -29,8 +30,8 @@ class Pair {
   [[nodiscard]] std::array<EndSeries, 2> operator()(double v) const {
     const std::array<SideSeries, 2> side{evaluated(0, v), evaluated(1, v)};
     const Series3 De = side[1].C - side[0].C;
-    const Series chord = norm(De);
-    const Series3 along_chord = (1.0 / chord) * De;
+    const Series square = dot(De, De), over = inverse_sqrt(square), chord = square * over;
+    const Series3 along_chord = over * De;
     const auto direction = [&](std::size_t i) -> const Series3& {
       return follows_chord(sides_[i]) ? along_chord : side[i].direction;
     };

@@ -63,7 +63,7 @@ struct CrossTangents {
 /// Boundary data typed as formulas of v: C and T (and D for G2), each three texts; domain and named constants
 /// given.
 struct LiteralEnd {
-  std::vector<std::string> C, T, D;
+  std::vector<std::string> C, T, D{};
 };
 /// Without D the end is G1. Throws InputError (where: "C/0", "D", ...) with all problems of the nine texts.
 [[nodiscard]] EndCondition literal_end(const LiteralEnd& data, CurveDomain domain,

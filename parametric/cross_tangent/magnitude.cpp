@@ -4,15 +4,19 @@
 #include <cmath>
 
 #include "kernel/math/quadrature.hpp"
+#include "parametric/trimline/along_curve.hpp"
 
 namespace blendwright {
 namespace {
 
-using std::sqrt;
+using blendwright::inverse_sqrt;  // of series, beside the one of numbers
+
+double inverse_sqrt(double x) { return 1.0 / std::sqrt(x); }
 
 template <class T>
 T circle_ratio(const T& cos_theta) {
-  return 2.0 / (1.0 + sqrt(0.5 * (1.0 + cos_theta)));  // (3)
+  const T square = 0.5 * (1.0 + cos_theta);
+  return 2.0 / (1.0 + square * inverse_sqrt(square));  // (3)
 }
 
 bool solved_by_samples(MagnitudeRule rule) {
@@ -54,19 +58,15 @@ class PairSolution {
   void iterate() {
     const double length = cubic_length(s_.De, m(0) * s_.direction[0], m(1) * s_.direction[1]) / chord_;
     const auto set = [this](std::size_t i, double ratio) { ratio_[i] = std::clamp(ratio, 0.1, 4.0); };
-    const double b0 = 6.0 * s_.De.dot(s_.direction[0]) / chord_,
-                 b1 = 6.0 * s_.De.dot(s_.direction[1]) / chord_;
-    const bool bend0 = rules_[0] == MagnitudeRule::minimum_bending,
-               bend1 = rules_[1] == MagnitudeRule::minimum_bending;
-    if (bend0 && bend1) {  // (4)
-      const double determinant = 16.0 - 4.0 * cosine_ * cosine_;
-      set(0, (4.0 * b0 - 2.0 * cosine_ * b1) / determinant);
-      set(1, (4.0 * b1 - 2.0 * cosine_ * b0) / determinant);
-    } else if (bend0) {  // (4) with the other magnitude given
-      set(0, 0.25 * (b0 - 2.0 * cosine_ * m(1) / chord_));
-    } else if (bend1) {
-      set(1, 0.25 * (b1 - 2.0 * cosine_ * m(0) / chord_));
-    }
+    // (4) per chord; a magnitude by another rule is taken as it is. Alternating descent reaches the least
+    // value within the bounds too; it gains a factor 4 per pass at least.
+    for (int descent = 0; descent < 8; ++descent)
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (rules_[i] != MagnitudeRule::minimum_bending) continue;
+        const std::size_t k = 1 - i;
+        const double other = rules_[k] == MagnitudeRule::minimum_bending ? ratio_[k] : m(k) / chord_;
+        set(i, 1.5 * s_.De.dot(s_.direction[i]) / chord_ - 0.5 * cosine_ * other);
+      }
     for (std::size_t i = 0; i < 2; ++i)
       if (rules_[i] == MagnitudeRule::arc_length) set(i, length);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "parametric/trimline/along_curve.hpp"
+
 namespace blendwright {
 namespace {
 
@@ -32,12 +34,14 @@ SideSeries SideFrame::regular(double v, bool with_bend) const {
   const Series2 uv = to_series<2>(line_.pcurve().jet(wrapped(line_.domain(), v).inside));
   const SurfacePartials P = line_.primary().partials({uv[0].value(), uv[1].value()});
   SideSeries s;
-  s.C = along(P, 0, 0, uv);
-  const Series3 Pu = along(P, 1, 0, uv), Pv = along(P, 0, 1, uv);
+  const AlongCurve along_line(uv);
+  s.C = along_line(P, 0, 0);
+  const Series3 Pu = along_line(P, 1, 0), Pv = along_line(P, 0, 1);
   const Series3 N = cross(Pu, Pv);
-  const Series over = 1.0 / norm(N);
+  const Series over = inverse_sqrt(dot(N, N));
   s.normal = over * N;
-  const Series3 tangent = normalized(differentiated(s.C));
+  const Series3 C1 = differentiated(s.C);
+  const Series3 tangent = inverse_sqrt(dot(C1, C1)) * C1;
   const Series3 k = cross(s.normal, tangent);
   s.direction = sign_ * cos_psi_ * k;
   if (sin_psi_ != 0.0) s.direction = s.direction + sin_psi_ * tangent;
@@ -45,8 +49,8 @@ SideSeries SideFrame::regular(double v, bool with_bend) const {
   // direction = a Pu + b Pv;  a = direction.(Pv x n)/|Pu x Pv|,  b = direction.(n x Pu)/|Pu x Pv|.
   const Series a = over * dot(s.direction, cross(Pv, s.normal)),
                b = over * dot(s.direction, cross(s.normal, Pu));
-  const Series L = dot(along(P, 2, 0, uv), s.normal), M = dot(along(P, 1, 1, uv), s.normal),
-               Nn = dot(along(P, 0, 2, uv), s.normal);
+  const Series L = dot(along_line(P, 2, 0), s.normal), M = dot(along_line(P, 1, 1), s.normal),
+               Nn = dot(along_line(P, 0, 2), s.normal);
   s.bend = a * a * L + 2.0 * a * b * M + b * b * Nn;
   return s;
 }

@@ -5,6 +5,7 @@
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/geometry/project.hpp"
+#include "parametric/trimline/along_curve.hpp"
 #include "parametric/trimline/line_point.hpp"
 #include "parametric/trimline/trimline.hpp"
 
@@ -57,9 +58,10 @@ class FootEquations {
     const Eigen::Matrix2d J = inverse_jacobian(s, value(q)).value_or(Eigen::Matrix2d::Zero());
     Series2 uv{Series(foot[0]), Series(foot[1])};
     for (std::size_t known = 1; known <= Series::order; ++known) {
-      const Series3 away = along(P, 0, 0, uv) - q;
-      const Series F = along_direction_ ? dot(away, constant(e1_)) : dot(away, along(P, 1, 0, uv));
-      const Series G = along_direction_ ? dot(away, constant(e2_)) : dot(away, along(P, 0, 1, uv));
+      const AlongCurve along_foot(uv);
+      const Series3 away = along_foot(P, 0, 0) - q;
+      const Series F = along_direction_ ? dot(away, constant(e1_)) : dot(away, along_foot(P, 1, 0));
+      const Series G = along_direction_ ? dot(away, constant(e2_)) : dot(away, along_foot(P, 0, 1));
       for (std::size_t k = known; k <= Series::order; ++k) {
         uv[0].c[k] -= J(0, 0) * F.c[k] + J(0, 1) * G.c[k];
         uv[1].c[k] -= J(1, 0) * F.c[k] + J(1, 1) * G.c[k];

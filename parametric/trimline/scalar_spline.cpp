@@ -1,6 +1,7 @@
 #include "parametric/trimline/scalar_spline.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/geometry/spline_interpolation.hpp"
 
@@ -30,18 +31,16 @@ std::array<double, 2> end_derivatives(double x, const std::vector<double>& t, st
 }  // namespace
 
 ScalarSpline ScalarSpline::closed(std::vector<double> breaks, const std::vector<double>& values) {
-  BSplineBasis basis = BSplineBasis::closed(degree, std::move(breaks));
-  std::vector<double> control = to_vector(periodic_control(basis, column(values)));
-  return ScalarSpline(std::move(basis), std::move(control));
+  const BSplineBasis basis = BSplineBasis::closed(degree, std::move(breaks));
+  return ScalarSpline(basis, to_vector(periodic_control(basis, column(values))));
 }
 
 ScalarSpline ScalarSpline::open(std::vector<double> breaks, const std::vector<double>& values,
                                 std::array<double, 2> start, std::array<double, 2> end) {
-  BSplineBasis basis = BSplineBasis::clamped(degree, std::move(breaks));
+  const BSplineBasis basis = BSplineBasis::clamped(degree, std::move(breaks));
   const Eigen::MatrixXd s = Eigen::Map<const Eigen::VectorXd>(start.data(), 2);
   const Eigen::MatrixXd e = Eigen::Map<const Eigen::VectorXd>(end.data(), 2);
-  std::vector<double> control = to_vector(complete_control(basis, column(values), s, e));
-  return ScalarSpline(std::move(basis), std::move(control));
+  return ScalarSpline(basis, to_vector(complete_control(basis, column(values), s, e)));
 }
 
 ScalarSpline ScalarSpline::open(std::vector<double> breaks, const std::vector<double>& values) {
@@ -53,25 +52,61 @@ ScalarSpline ScalarSpline::open(std::vector<double> breaks, const std::vector<do
   return open(std::move(breaks), values, start, end);
 }
 
+ScalarSpline::ScalarSpline(const BSplineBasis& basis, const std::vector<double>& control)
+    : breaks_(basis.breaks()), closed_(basis.periodic()) {
+  const auto derivatives = [&](double t) {
+    const BSplineBasis::Local local = basis.evaluate(t, 4);
+    std::array<double, 5> f{};
+    for (std::size_t k = 0; k < f.size(); ++k)
+      for (int i = 0; i <= degree; ++i)
+        f[k] += local.value[k][static_cast<std::size_t>(i)] *
+                control[static_cast<std::size_t>(basis.index(local.first + i))];
+    return f;
+  };
+  for (std::size_t span = 0; span + 1 < breaks_.size(); ++span) {
+    const double h = breaks_[span + 1] - breaks_[span];
+    const std::array<double, 5> f = derivatives(breaks_[span]);
+    std::array<double, degree + 1> c{};
+    double scale = 1.0, sum = 0.0;
+    for (std::size_t k = 0; k < f.size(); ++k) {
+      if (k > 0) scale *= h / static_cast<double>(k);
+      c[k] = f[k] * scale;
+      sum += c[k];
+    }
+    c[degree] = derivatives(breaks_[span + 1])[0] - sum;  // ends at the next break's value
+    polynomials_.push_back(c);
+  }
+}
+
+ScalarSpline::Place ScalarSpline::place(double t) const {
+  const double lo = breaks_.front(), hi = breaks_.back();
+  if (closed_) t -= (hi - lo) * std::floor((t - lo) / (hi - lo));
+  const auto next = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, t);
+  const auto span = static_cast<std::size_t>(next - breaks_.begin()) - 1;
+  return {span, (t - breaks_[span]) / (breaks_[span + 1] - breaks_[span])};
+}
+
 double ScalarSpline::operator()(double t) const {
-  const BSplineBasis::Local local = basis_.evaluate(t, 0);
-  double sum = 0.0;
-  for (int i = 0; i <= degree; ++i)
-    sum += local.value[0][static_cast<std::size_t>(i)] *
-           control_[static_cast<std::size_t>(basis_.index(local.first + i))];
-  return sum;
+  const auto [span, x] = place(t);
+  const std::array<double, degree + 1>& c = polynomials_[span];
+  double f = c[degree];
+  for (std::size_t k = degree; k-- > 0;) f = f * x + c[k];
+  return f;
 }
 
 Series ScalarSpline::operator()(const Series& t) const {
-  const BSplineBasis::Local local = basis_.evaluate(t.value(), Series::order);
+  const auto [span, x] = place(t.value());
+  // Taylor shift of the polynomial to x by repeated synthetic division; only the first four coefficients are
+  // needed.
+  std::array<double, degree + 1> c = polynomials_[span];
+  for (std::size_t k = 0; k <= Series::order; ++k)
+    for (std::size_t j = degree; j-- > k;) c[j] += x * c[j + 1];
+  const double per_step = 1.0 / (breaks_[span + 1] - breaks_[span]);
   std::array<double, Series::order + 1> f{};
-  double factorial = 1.0;
+  double scale = 1.0;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (k > 0) factorial *= static_cast<double>(k);
-    for (int i = 0; i <= degree; ++i)
-      f[k] += local.value[k][static_cast<std::size_t>(i)] *
-              control_[static_cast<std::size_t>(basis_.index(local.first + i))];
-    f[k] /= factorial;
+    f[k] = c[k] * scale;
+    scale *= per_step;
   }
   return compose_scalar(f, t);
 }

@@ -25,10 +25,18 @@ class ScalarSpline {
   [[nodiscard]] Series operator()(const Series& t) const;
 
  private:
-  ScalarSpline(BSplineBasis basis, std::vector<double> control)
-      : basis_(std::move(basis)), control_(std::move(control)) {}
-  BSplineBasis basis_;
-  std::vector<double> control_;
+  ScalarSpline(const BSplineBasis& basis, const std::vector<double>& control);
+  /// The span of t and the place in it, in [0, 1].
+  struct Place {
+    std::size_t span;
+    double x;
+  };
+  [[nodiscard]] Place place(double t) const;
+
+  // Kept as polynomials: in span k, f = sum_j c_j x^j with x = (t - t_k)/(t_{k+1} - t_k).
+  std::vector<double> breaks_;
+  std::vector<std::array<double, degree + 1>> polynomials_;
+  bool closed_ = false;
 };
 
 }  // namespace blendwright
