@@ -64,12 +64,6 @@ Range range_of(const std::vector<double>& values) {
   return range;
 }
 
-Range hull(const Range& a, const Range& b) {
-  const auto positive = std::minmax(a.least_positive, b.least_positive);
-  return {std::min(a.least, b.least), std::max(a.most, b.most),
-          positive.first > 0.0 ? positive.first : positive.second};
-}
-
 Axis linear_axis(const Range& range, int ticks, bool fitted) {
   double lo = range.least, hi = range.most;
   const double size = std::max(std::abs(lo), std::abs(hi));

@@ -28,7 +28,6 @@ struct Range {
   double least_positive = 0.0;     ///< 0 when there is none
 };
 [[nodiscard]] Range range_of(const std::vector<double>& values);
-[[nodiscard]] Range hull(const Range& a, const Range& b);
 
 /// `fitted`: ends at the range, not at the next tick.
 [[nodiscard]] Axis linear_axis(const Range& range, int ticks, bool fitted = false);
