@@ -1,6 +1,7 @@
 #pragma once
 // Partials of a surface along a parameter curve, many at a time: the powers of the curve's increments are
 // shared. Private to this module; the kernel's along() is the same for a single use.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,14 +11,20 @@ namespace blendwright {
 
 class AlongCurve {
  public:
+  /// Only the increments of `uv` are used; its constant terms are where the partials are taken.
   explicit AlongCurve(const Series2& uv) {
-    Series du = uv[0], dv = uv[1];
-    du.c[0] = dv.c[0] = 0.0;
-    at(0, 0) = Series(1.0);
-    for (int n = 1; n <= Series::order; ++n)
-      for (int b = 0; b <= n; ++b)
-        at(n - b, b) = b == 0 ? at(n - 1, 0) * du / static_cast<double>(n)
-                              : at(n - b, b - 1) * dv / static_cast<double>(b);
+    const double u1 = uv[0].c[1], u2 = uv[0].c[2], u3 = uv[0].c[3];
+    const double v1 = uv[1].c[1], v2 = uv[1].c[2], v3 = uv[1].c[3];
+    power_ = {{{1.0, 0.0, 0.0, 0.0},
+               {0.0, u1, u2, u3},
+               {0.0, v1, v2, v3},
+               {0.0, 0.0, 0.5 * u1 * u1, u1 * u2},
+               {0.0, 0.0, u1 * v1, u1 * v2 + u2 * v1},
+               {0.0, 0.0, 0.5 * v1 * v1, v1 * v2},
+               {0.0, 0.0, 0.0, u1 * u1 * u1 / 6.0},
+               {0.0, 0.0, 0.0, 0.5 * u1 * u1 * v1},
+               {0.0, 0.0, 0.0, 0.5 * u1 * v1 * v1},
+               {0.0, 0.0, 0.0, v1 * v1 * v1 / 6.0}}};
   }
   /// d^{i+j} S / du^i dv^j, exact to order min(3, 4 - i - j); higher coefficients are 0.
   [[nodiscard]] Series3 operator()(const SurfacePartials& P, int i, int j) const {
@@ -26,19 +33,17 @@ class AlongCurve {
     for (int n = 0; n <= order; ++n)
       for (int b = 0; b <= n; ++b) {
         const Vec3& F = P(i + n - b, j + b);
-        const Series& m = power_[SurfacePartials::index(n - b, b)];
-        // A monomial of degree n starts at order n.
-        for (int k = n; k <= order; ++k)
-          for (std::size_t d = 0; d < 3; ++d)
-            sum[d].c[static_cast<std::size_t>(k)] +=
-                m.c[static_cast<std::size_t>(k)] * F[static_cast<Eigen::Index>(d)];
+        const auto& m = power_[SurfacePartials::index(n - b, b)];
+        for (auto k = static_cast<std::size_t>(n); k <= static_cast<std::size_t>(order); ++k)
+          for (std::size_t d = 0; d < 3; ++d) sum[d].c[k] += m[k] * F[static_cast<Eigen::Index>(d)];
       }
     return sum;
   }
 
  private:
-  [[nodiscard]] Series& at(int a, int b) { return power_[SurfacePartials::index(a, b)]; }
-  std::array<Series, 10> power_;  ///< du^a dv^b / (a! b!), a + b <= 3
+  /// Coefficients of du^a dv^b / (a! b!), a + b <= 3, in the order of SurfacePartials; they start at order a
+  /// + b.
+  std::array<std::array<double, Series::order + 1>, 10> power_;
 };
 
 /// a^(-1/2), a > 0.

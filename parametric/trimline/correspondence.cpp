@@ -75,7 +75,7 @@ double refined(const FractionLine& line1, const Samples& s0, double flat, double
     if (!(bend < -flat)) return offset;
     const double step = std::clamp(-slope / bend, -1.0 / samples, 1.0 / samples);
     offset += step;
-    if (std::abs(step) < 1e-14) break;
+    if (std::abs(step) < 1e-7) break;  // convergence is quadratic: the next step would be rounding
   }
   return offset;
 }
