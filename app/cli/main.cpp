@@ -1,1 +1,146 @@
-int main() { return 0; }
+// The command line: the only file that sees CLI11 (which is why it takes longer to compile than the others).
+#include <CLI/CLI.hpp>
+
+#include "app/cli/verbs.hpp"
+#include "app/json/choices.hpp"
+
+namespace blendwright {
+
+std::span<const VerbInfo> verbs_table() {
+  static constexpr VerbInfo verbs[] = {
+      {"blend", "build the blends of a job, write them and verify what was written",
+       "blendwright blend joint.json -o out --format step,vtp"},
+      {"verify", "build the blends of a job and verify them, in memory",
+       "blendwright verify joint.json --tol-angle-deg 0.01"},
+      {"inspect", "list the faces and edges of a STEP file, with selectors to paste into a job",
+       "blendwright inspect part.step"},
+      {"list", "list what a job may choose from", "blendwright list primaries"},
+      {"schema", "print the JSON Schema of a job or a report, for editors",
+       "blendwright schema job > job.schema.json"}};
+  return verbs;
+}
+
+namespace {
+
+CLI::App* verb(CLI::App& app, std::string_view name) {
+  for (const VerbInfo& v : verbs_table())
+    if (v.name == name) {
+      CLI::App* sub = app.add_subcommand(std::string(name), std::string(v.summary));
+      sub->footer("\nExample:\n  " + std::string(v.example));
+      return sub;
+    }
+  throw std::logic_error("verb without a row in the table");
+}
+
+std::string footer() {
+  std::string text = "\nExamples:\n";
+  for (const VerbInfo& v : verbs_table()) text += "  " + std::string(v.example) + "\n";
+  text += "\nExit codes:";
+  for (const ExitCode& e : exit_codes)
+    text += "  " + std::to_string(e.code) + " " + std::string(e.meaning) + ";";
+  text.back() = '\n';
+  return text;
+}
+
+template <class T>
+void optional_number(CLI::App* sub, const char* flag, std::optional<T>& value, const char* help,
+                     const CLI::Validator& check) {
+  sub->add_option(flag, value, help)->check(check);
+}
+
+void add_threads(CLI::App* sub, std::optional<int>& threads) {
+  optional_number(sub, "--threads", threads, "number of threads; the result is the same",
+                  CLI::Range(1, 1024));
+}
+
+void add_blend(CLI::App& app, BlendCommand& command, const Console& console, int& code) {
+  std::vector<std::string> formats;
+  for (const auto& c : format_choices()) formats.emplace_back(c.name);
+  CLI::App* sub = verb(app, "blend");
+  sub->add_option("JOB", command.job, "job file; - reads standard input")->required();
+  sub->add_option("-o,--output", command.folder, "output folder")->capture_default_str();
+  sub->add_option("--format", command.formats, "formats instead of the job's, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(formats));
+  sub->add_flag("--force", command.force, "replace files that exist");
+  sub->add_flag("--json", command.json, "print the report instead of the table");
+  sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
+  add_threads(sub, command.threads);
+  sub->callback([&] { code = blend(command, console); });
+}
+
+void add_verify(CLI::App& app, VerifyCommand& command, const Console& console, int& code) {
+  CLI::App* sub = verb(app, "verify");
+  sub->add_option("JOB", command.job, "job file; - reads standard input")->required();
+  optional_number(sub, "--tol-position", command.position, "largest gap, model units", CLI::PositiveNumber);
+  optional_number(sub, "--tol-angle-deg", command.angle_deg, "largest angle between tangent planes",
+                  CLI::PositiveNumber);
+  optional_number(sub, "--tol-curvature", command.curvature, "largest jump of normal curvature, 1/model unit",
+                  CLI::PositiveNumber);
+  sub->add_flag("--json", command.json, "print the report instead of the table");
+  sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
+  add_threads(sub, command.threads);
+  sub->callback([&] { code = verify(command, console); });
+}
+
+void add_inspect(CLI::App& app, InspectCommand& command, const Console& console, int& code) {
+  CLI::App* sub = verb(app, "inspect");
+  sub->add_option("PART", command.part, "STEP file")->required();
+  sub->add_flag("--json", command.json, "print JSON");
+  sub->callback([&] { code = inspect(command, console); });
+}
+
+void add_list(CLI::App& app, ListCommand& command, const Console& console, int& code) {
+  CLI::App* sub = verb(app, "list");
+  sub->add_option("FAMILY", command.family, "what to list")
+      ->required()
+      ->check(CLI::IsMember(listed_families()));
+  sub->add_flag("--json", command.json, "print JSON");
+  sub->callback([&] { code = list(command, console); });
+}
+
+void add_schema(CLI::App& app, SchemaCommand& command, const Console& console, int& code) {
+  CLI::App* sub = verb(app, "schema");
+  sub->add_option("OF", command.of, "job or report")->required()->check(CLI::IsMember({"job", "report"}));
+  sub->callback([&] { code = schema(command, console); });
+}
+
+int run(int argc, char** argv) {
+  const Console console = Console::of_process();
+  CLI::App app{"Makes and proves blend surfaces between CAD surfaces.", "blendwright"};
+  app.set_version_flag("--version", "blendwright " BLENDWRIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer(footer());
+  int code = exit_done;
+  BlendCommand blend_command;
+  VerifyCommand verify_command;
+  InspectCommand inspect_command;
+  ListCommand list_command;
+  SchemaCommand schema_command;
+  add_blend(app, blend_command, console, code);
+  add_verify(app, verify_command, console, code);
+  add_inspect(app, inspect_command, console, code);
+  add_list(app, list_command, console, code);
+  add_schema(app, schema_command, console, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e, console.out(), console.err()) == 0 ? exit_done : exit_usage;
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace blendwright
+
+int main(int argc, char** argv) {
+  try {
+    return blendwright::run(argc, argv);
+  } catch (const std::exception& e) {
+    std::cerr << "blendwright: unexpected error, please report it: " << e.what() << '\n';
+    return blendwright::exit_no_result;
+  } catch (...) {
+    std::cerr << "blendwright: unexpected error, please report it\n";
+    return blendwright::exit_no_result;
+  }
+}

@@ -4,6 +4,7 @@
 #include <HeaderSection_FileName.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_Label.hxx>
@@ -98,6 +99,7 @@ void write_step(const std::filesystem::path& file, const Shape& shape, const Ste
   UnfinishedFile unfinished(file);
   const detail::ExchangeSession session(options.unit);
   detail::guarded<IoError>(file.string(), [&] {
+    STEPCAFControl_Controller::Init();  // the names of faces are a setting that exists only after this
     Interface_Static::SetCVal("write.step.schema",
                               options.schema == StepSchema::AP214 ? "AP214IS" : "AP242DIS");
     Interface_Static::SetCVal("write.step.unit", detail::occt_unit_name(options.unit));

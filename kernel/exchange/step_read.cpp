@@ -3,6 +3,7 @@
 #include <Geom_BSplineSurface.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <TColStd_HSequenceOfExtendedString.hxx>
 #include <TCollection_AsciiString.hxx>
@@ -116,6 +117,7 @@ StepContent read_step(const std::filesystem::path& file, LengthUnit unit) {
   {
     const detail::ExchangeSession session(unit);
     detail::guarded<IoError>(file.string(), [&] {
+      STEPCAFControl_Controller::Init();  // the names of faces are a setting that exists only after this
       Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
       const detail::StepDocument document;
       XCAFDoc_DocumentTool::SetLengthUnit(document.document(), detail::millimetres(unit) / 1000.0);

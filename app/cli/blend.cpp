@@ -1,0 +1,47 @@
+#include <algorithm>
+
+#include "app/cli/run_table.hpp"
+#include "app/cli/verbs.hpp"
+#include "app/json/choices.hpp"
+#include "app/json/job_reader.hpp"
+#include "kernel/base/number_text.hpp"
+#include "kernel/base/parallel_for.hpp"
+
+namespace blendwright {
+namespace {
+
+std::vector<OutputFormat> formats_named(const std::vector<std::string>& names) {
+  std::vector<OutputFormat> formats;
+  for (const Choice<OutputFormat>& c : format_choices())
+    if (std::find(names.begin(), names.end(), c.name) != names.end()) formats.push_back(c.value);
+  return formats;
+}
+
+}  // namespace
+
+int blend(const BlendCommand& command, const Console& console) {
+  return guarded(console, shown_name(command.job), [&] {
+    Run run(console, command.quiet);
+    std::optional<ThreadLimit> limit;
+    if (command.threads) limit.emplace(*command.threads);
+    JobSpec job = read_job_file(command.job);
+    if (!command.formats.empty()) job.output.formats = formats_named(command.formats);
+    JobResult result = run_job(job, run.progress());
+    const JobOutputs outputs = write_outputs(result, {command.folder, command.force}, run.progress());
+    run.clear();
+    if (!command.quiet) {
+      for (const std::string& w : result.warnings) console.warn(w);
+      for (const std::string& n : outputs.notes) console.err() << n << '\n';
+    }
+    if (command.json) {
+      console.out() << report_json(result, &outputs, false);
+    } else if (!command.quiet) {
+      console.out() << run_table(result, &outputs, shown_name(command.job))
+                    << written_files(outputs, job.output.step_schema) << "   "
+                    << number_text(run.seconds(), 2) << " s\n";
+    }
+    return verified(result, &outputs) ? exit_done : exit_not_verified;
+  });
+}
+
+}  // namespace blendwright

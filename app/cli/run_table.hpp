@@ -1,0 +1,16 @@
+#pragma once
+// What a person reads after a run.
+#include <string>
+
+#include "app/pipeline/write_outputs.hpp"
+
+namespace blendwright {
+
+/// A headline and one row per seam: asked, reached, gap, angle, curvature jump and the worst place, at the
+/// last stage measured; then every failed check. At most 80 columns unless a name is long.
+[[nodiscard]] std::string run_table(const JobResult& result, const JobOutputs* outputs,
+                                    const std::string& job_file);
+/// "wrote out/x.step (AP242, 41 kB), .vtp x3, ...".
+[[nodiscard]] std::string written_files(const JobOutputs& outputs, StepSchema schema);
+
+}  // namespace blendwright

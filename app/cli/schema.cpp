@@ -1,0 +1,13 @@
+#include "app/cli/verbs.hpp"
+#include "app/json/job_reader.hpp"
+
+namespace blendwright {
+
+int schema(const SchemaCommand& command, const Console& console) {
+  return guarded(console, "schema", [&] {
+    console.out() << (command.of == "report" ? report_schema() : job_schema());
+    return exit_done;
+  });
+}
+
+}  // namespace blendwright

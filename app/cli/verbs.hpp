@@ -1,0 +1,59 @@
+#pragma once
+// The program's verbs: what each is asked, one plain function for each, and their table.
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/cli/console.hpp"
+
+namespace blendwright {
+
+/// A row of the verbs table: --help prints it.
+struct VerbInfo {
+  std::string_view name, summary, example;
+};
+[[nodiscard]] std::span<const VerbInfo> verbs_table();
+
+struct BlendCommand {
+  std::string job;  ///< "-": standard input
+  std::string folder = "out";
+  std::vector<std::string> formats;  ///< words of the format family; empty: as the job says
+  bool force = false, json = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Builds, writes and verifies.
+[[nodiscard]] int blend(const BlendCommand& command, const Console& console);
+
+struct VerifyCommand {
+  std::string job;
+  std::optional<double> position, angle_deg, curvature;  ///< instead of the job's tolerances
+  bool json = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Builds and verifies in memory.
+[[nodiscard]] int verify(const VerifyCommand& command, const Console& console);
+
+struct InspectCommand {
+  std::string part;
+  bool json = false;
+};
+/// Lists the faces and edges of a STEP file with their selectors.
+[[nodiscard]] int inspect(const InspectCommand& command, const Console& console);
+
+struct ListCommand {
+  std::string family;
+  bool json = false;
+};
+/// Lists the rows of a family table.
+[[nodiscard]] int list(const ListCommand& command, const Console& console);
+[[nodiscard]] std::vector<std::string> listed_families();
+
+struct SchemaCommand {
+  std::string of;  ///< "job" or "report"
+};
+/// Prints a JSON Schema.
+[[nodiscard]] int schema(const SchemaCommand& command, const Console& console);
+
+}  // namespace blendwright

@@ -1,0 +1,29 @@
+#include "app/cli/run_table.hpp"
+#include "app/cli/verbs.hpp"
+#include "app/json/job_reader.hpp"
+#include "kernel/base/parallel_for.hpp"
+
+namespace blendwright {
+
+int verify(const VerifyCommand& command, const Console& console) {
+  return guarded(console, shown_name(command.job), [&] {
+    Run run(console, command.quiet);
+    std::optional<ThreadLimit> limit;
+    if (command.threads) limit.emplace(*command.threads);
+    JobSpec job = read_job_file(command.job);
+    if (command.position) job.tolerance.position = *command.position;
+    if (command.angle_deg) job.tolerance.angle = degrees(*command.angle_deg);
+    if (command.curvature) job.tolerance.curvature = *command.curvature;
+    const JobResult result = run_job(job, run.progress());
+    run.clear();
+    if (!command.quiet)
+      for (const std::string& w : result.warnings) console.warn(w);
+    if (command.json)
+      console.out() << report_json(result, nullptr, false);
+    else if (!command.quiet)
+      console.out() << run_table(result, nullptr, shown_name(command.job));
+    return verified(result) ? exit_done : exit_not_verified;
+  });
+}
+
+}  // namespace blendwright

@@ -1,0 +1,155 @@
+#include "app/json/json_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/number_text.hpp"
+
+namespace blendwright {
+namespace {
+
+void write_string(std::string& out, std::string_view text) {
+  out += '"';
+  for (const char c : text) {
+    switch (c) {
+      case '"':
+        out += "\\\"";
+        break;
+      case '\\':
+        out += "\\\\";
+        break;
+      case '\n':
+        out += "\\n";
+        break;
+      case '\t':
+        out += "\\t";
+        break;
+      case '\r':
+        out += "\\r";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20) {
+          const char hex[] = "0123456789abcdef";
+          out += "\\u00";
+          out += hex[(c >> 4) & 15];
+          out += hex[c & 15];
+        } else {
+          out += c;
+        }
+    }
+  }
+  out += '"';
+}
+
+bool plain(const JsonValue& v) { return !v.items() && !v.members(); }
+
+void write(std::string& out, const JsonValue& v, std::size_t level);
+
+void new_line(std::string& out, std::size_t level) {
+  out += '\n';
+  out.append(2 * level, ' ');
+}
+
+void write_array(std::string& out, const JsonValue::Array& items, std::size_t level) {
+  const bool one_line = std::all_of(items.begin(), items.end(), plain);
+  out += '[';
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) out += one_line ? ", " : ",";
+    if (!one_line) new_line(out, level + 1);
+    write(out, items[i], level + 1);
+  }
+  if (!one_line) new_line(out, level);
+  out += ']';
+}
+
+void write_object(std::string& out, const JsonValue::Object& members, std::size_t level) {
+  out += '{';
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (i > 0) out += ',';
+    new_line(out, level + 1);
+    write_string(out, members[i].key);
+    out += ": ";
+    write(out, members[i].value, level + 1);
+  }
+  if (!members.empty()) new_line(out, level);
+  out += '}';
+}
+
+void write(std::string& out, const JsonValue& v, std::size_t level) {
+  if (const auto* b = v.boolean()) {
+    out += *b ? "true" : "false";
+  } else if (const auto* x = v.number()) {
+    out += std::isfinite(*x) ? number_text(*x) : "null";
+  } else if (const auto* t = v.text()) {
+    write_string(out, *t);
+  } else if (const auto* items = v.items()) {
+    write_array(out, *items, level);
+  } else if (const auto* members = v.members()) {
+    write_object(out, *members, level);
+  } else {
+    out += "null";
+  }
+}
+
+}  // namespace
+
+JsonValue::JsonValue(Array items) : value(std::move(items)) {}
+JsonValue::JsonValue(Object members) : value(std::move(members)) {}
+JsonValue JsonValue::array(std::initializer_list<JsonValue> items) { return JsonValue(Array(items)); }
+JsonValue JsonValue::object(std::initializer_list<JsonMember> members) { return JsonValue(Object(members)); }
+
+const JsonValue* JsonValue::find(std::string_view key) const {
+  if (const Object* all = members())
+    for (const JsonMember& m : *all)
+      if (m.key == key) return &m.value;
+  return nullptr;
+}
+
+JsonValue& JsonValue::add(std::string key, JsonValue member) {
+  if (is_null()) value = Object();
+  auto& all = std::get<Object>(value);
+  all.push_back({std::move(key), std::move(member)});
+  return all.back().value;
+}
+
+std::string in_quotes(std::string_view text, std::size_t limit) {
+  std::string shown(1, '"');
+  for (const char c : text.substr(0, limit)) {
+    const auto byte = static_cast<unsigned char>(c);
+    shown += byte < 0x20 || byte >= 0x7f ? '?' : c;
+  }
+  if (text.size() > limit) shown += "...";
+  return shown += '"';
+}
+
+std::string described(const JsonValue& value) {
+  if (const auto* b = value.boolean()) return *b ? "is true" : "is false";
+  if (const auto* x = value.number()) return "is " + number_text(*x);
+  if (const auto* t = value.text()) return "is " + in_quotes(*t);
+  if (const auto* items = value.items())
+    return "is a list of " + std::to_string(items->size()) + (items->size() == 1 ? " value" : " values");
+  return value.members() ? "is an object" : "is null";
+}
+
+std::string pointer_part(std::string_view key) {
+  std::string part;
+  for (const char c : key.substr(0, 100)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '~')
+      part += "~0";
+    else if (c == '/')
+      part += "~1";
+    else
+      part += byte < 0x20 || byte == 0x7f ? '?' : c;
+  }
+  return part;
+}
+
+std::string json_text(const JsonValue& value) {
+  std::string out;
+  write(out, value, 0);
+  out += '\n';
+  return out;
+}
+
+}  // namespace blendwright
