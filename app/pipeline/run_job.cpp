@@ -114,7 +114,7 @@ Blend build_blend(const BlendEntry& entry, const JobSpec& job, const std::vector
 
 BlendFitOptions fit_options(const Tolerance& tolerance) {
   BlendFitOptions options;
-  options.position = 0.1 * tolerance.position;
+  options.position = 0.3 * tolerance.position;
   options.angle = Radians(0.1 * tolerance.angle.value);
   options.curvature = 0.1 * tolerance.curvature;
   return options;

@@ -34,7 +34,7 @@ struct JobResult {
   std::vector<StageTime> times;
 };
 
-/// What a fit is asked for: a tenth of the tolerance, so that files and re-reading have the rest.
+/// What a fit is asked for: a part of the tolerance, so that files and re-reading have the rest.
 [[nodiscard]] BlendFitOptions fit_options(const Tolerance& tolerance);
 
 /// Builds, fits and verifies every blend of the job, in memory. Throws InputError (JSON pointers, all
