@@ -131,16 +131,6 @@ void combine(const RowCombination& task, std::size_t i0, std::size_t i1, std::si
   if (task.stream) hwy::FlushStream();
 }
 
-void fill(double* out, std::size_t count, double value) {
-  const Lanes d;
-  const std::size_t N = hn::Lanes(d), head = std::min(count, head_length(out, N));
-  std::size_t j = 0;
-  for (; j < head; ++j) out[j] = value;
-  for (; j + N <= count; j += N) hn::Stream(hn::Set(d, value), d, out + j);
-  for (; j < count; ++j) out[j] = value;
-  hwy::FlushStream();
-}
-
 }  // namespace blendwright::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -148,14 +138,10 @@ HWY_AFTER_NAMESPACE();
 namespace blendwright::detail {
 
 HWY_EXPORT(combine);
-HWY_EXPORT(fill);
 
 void combine_rows(const RowCombination& task, std::size_t i0, std::size_t i1, std::size_t j0,
                   std::size_t j1) {
   HWY_DYNAMIC_DISPATCH(combine)(task, i0, i1, j0, j1);
-}
-void stream_fill(double* out, std::size_t count, double value) {
-  HWY_DYNAMIC_DISPATCH(fill)(out, count, value);
 }
 
 }  // namespace blendwright::detail

@@ -20,8 +20,4 @@ struct RowCombination {
 };
 void combine_rows(const RowCombination& task, std::size_t i0, std::size_t i1, std::size_t j0, std::size_t j1);
 
-/// Writes `value` to every element, past the caches: the memory bandwidth that combine_rows is measured
-/// against.
-void stream_fill(double* out, std::size_t count, double value);
-
 }  // namespace blendwright::detail

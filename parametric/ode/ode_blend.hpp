@@ -27,8 +27,8 @@ enum class BlendFrame { global, fixed, moving };
 /// How the blend is generated between its end conditions.
 struct BlendShape {
   BlendMode mode = BlendMode::chord;
-  Vec3 anchor = Vec3::Zero();           ///< mode anchor
-  std::array<SweepOde, 3> ode{};        ///< fourth order: per component of the frame
+  Vec3 anchor = Vec3::Zero();             ///< mode anchor
+  std::array<SweepOde, 3> ode{};          ///< fourth order: per component of the frame
   std::optional<double> repeated_root{};  ///< fourth order: exact q for all components, instead of `ode`
   SixthOrderFamily family = SixthOrderFamily::tension1;  ///< used when a side asks G2
   double tension = 0.0;                                  ///< root of the sixth-order family
