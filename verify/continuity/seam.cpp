@@ -100,6 +100,8 @@ SamplesOfSeams sampled(const std::vector<SeamProbe>& probes, std::size_t count) 
 void fill(SeamReport& report, const SeamProbe& probe, const std::vector<SeamSample>& samples, bool refine) {
   report.samples = samples.size();
   for (const Measure& m : measures) report.*m.result = deviation(probe, samples, m, refine);
+  for (auto* values : {&report.v, &report.gap_at, &report.angle_at, &report.curvature_at})
+    values->reserve(samples.size());
   for (const SeamSample& s : samples) {
     report.folded += s.fold > 0.0 ? 1 : 0;
     report.v.push_back(s.v);
