@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/base/number_text.hpp"
+#include "kernel/base/parallel_for.hpp"
 #include "kernel/geometry/spline_interpolation.hpp"
 #include "parametric/fit/span_plan.hpp"
 #include "parametric/fit/trimline_defect.hpp"
@@ -185,11 +186,15 @@ BoundaryFit fit_boundary(const OdeBlend& blend, const std::vector<ComponentGroup
         basis_on(breaks, domain.v_closed), {}, std::vector<PerFunction>(groups.size(), PerFunction{})};
     fit.beta = control_of(fit.basis, sample);
     const std::size_t spans = breaks.size() - 1;
+    std::vector<SpanDefect> defects(spans);  // the data along v are what a fit spends its time on
+    parallel_for(spans, 4, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        defects[i] = meter.on(fit.basis, fit.beta, {breaks[i], breaks[i + 1]});
+    });
     std::vector<double> wanted(spans);
     for (std::size_t i = 0; i < spans; ++i) {
-      const SpanDefect d = meter.on(fit.basis, fit.beta, {breaks[i], breaks[i + 1]});
-      wanted[i] = wanted_spans(d, target);
-      add(fit, d);
+      wanted[i] = wanted_spans(defects[i], target);
+      add(fit, defects[i]);
     }
     if (fit.position <= target.position && fit.angle <= target.angle && fit.curvature <= target.curvature)
       return fit;
