@@ -33,7 +33,7 @@ constexpr double title_height = 0.085, bar_column = 0.16;     // of the picture
 constexpr double filled = 0.90;                               // of the free area, by the object
 constexpr double surroundings = 5.0;                          // most that is shown, in sizes of the focus
 constexpr double tube_radius = 0.0026, weld_distance = 1e-7;  // of the object's size
-constexpr int bar_decades = 8, bar_ticks = 9;
+constexpr int bar_decades = 5, bar_ticks = 9;  // errors cross zero, which would take any number of decades
 const Vec3 default_view(1.0, -1.2, 0.8);
 const Colour line_colour{0.10, 0.10, 0.12}, border_colour{0.42, 0.44, 0.48};
 
@@ -103,7 +103,10 @@ std::optional<Axis> bar_axis(const Picture& picture) {
   }
   if (!any) return std::nullopt;
   const Range range = range_of(all);
-  return picture.logarithmic ? log_axis(range, bar_decades, bar_ticks) : linear_axis(range, bar_ticks - 2);
+  if (!picture.logarithmic) return linear_axis(range, bar_ticks - 2);
+  Axis axis = log_axis(range, bar_decades, bar_ticks);
+  if (range.least <= 0.0 || std::log10(range.least) < axis.lo) axis.ticks.back().label.insert(0, "< ");
+  return axis;
 }
 
 vtkSmartPointer<vtkPoints> points_of(const std::vector<Vec3>& from) {

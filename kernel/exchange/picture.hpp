@@ -42,11 +42,11 @@ struct PictureMesh {
 struct Picture {
   std::string title;  ///< with the worst figure
   std::vector<PictureMesh> meshes;
-  std::vector<PolyLine> lines;  ///< drawn as tubes, dark
-  std::string column;           ///< of the coloured meshes, one component; empty: plain shading
-  std::string bar_title;        ///< with the unit
-  bool logarithmic = false;     ///< at most eight decades; what lies below, and zero, has the lowest colour
-  std::optional<Vec3> view;     ///< direction from the object to the eye; default (1, -1.2, 0.8)
+  std::vector<PolyLine> lines;     ///< drawn as tubes, dark
+  std::string column;              ///< of the coloured meshes, one component; empty: plain shading
+  std::string bar_title;           ///< with the unit
+  bool logarithmic = false;        ///< at most five decades; what lies below, and zero, has the lowest colour
+  std::optional<Vec3> view;        ///< direction from the object to the eye; default (1, -1.2, 0.8)
   int width = 1000, height = 760;  ///< 64 to 4096 pixels
 };
 /// Parallel projection fitted to the object, white background, perceptually uniform colours, grey for NaN.

@@ -108,7 +108,9 @@ class Panel {
         points.push_back(std::isfinite(curve.x[i]) && std::isfinite(curve.y[i])
                              ? at(curve.x[i], curve.y[i])
                              : Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
-      canvas_.line(points, curve_colour(c), 2.0);
+      // Points closer than pixels are an oscillation: thick lines would make a solid band of it.
+      const bool dense = static_cast<double>(points.size()) > box_.width();
+      canvas_.line(points, curve_colour(c), dense ? 1.0 : 2.0);
     }
   }
 
