@@ -28,7 +28,9 @@ void expect_goal(const BlendReport& report, const Goal& goal) {
     EXPECT_LE(seam.gap.worst, 1e-6);
     EXPECT_LE(seam.surface_gap.worst, 1e-6);
     EXPECT_LE(Radians(seam.angle.worst).degrees(), 1e-3);
-    if (goal.second_order) EXPECT_LE(seam.curvature.worst, 1e-4);
+    if (goal.second_order) {
+      EXPECT_LE(seam.curvature.worst, 1e-4);
+    }
   }
   if (!report.closing) return;
   EXPECT_LE(report.closing->gap, 1e-6);

@@ -18,7 +18,8 @@ inline JobSpec example_job(const std::string& name) {
   return read_job_file(specs_folder() / (name + ".json"));
 }
 
-/// The same joint taken from the primaries instead of typed boundary data, asking `continuity` on both sides.
+/// The same joint taken from the primaries instead of typed boundary data, asking `continuity` on both sides. The
+/// figures give both trimlines on one v, which is kept.
 inline JobSpec from_primaries(JobSpec job, Continuity continuity) {
   for (BlendEntry& blend : job.blends) {
     for (BlendSideEntry& side : blend.sides) {
@@ -27,6 +28,7 @@ inline JobSpec from_primaries(JobSpec job, Continuity continuity) {
       if (side.trimline)
         side.trimline->curve.closed = side.trimline->curve.closed || (blend.v && blend.v->closed);
     }
+    if (blend.v) blend.correspondence.rule = CorrespondenceRule::as_given;
     blend.v.reset();
     blend.shape = {};
   }

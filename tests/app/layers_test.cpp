@@ -79,13 +79,16 @@ TEST(Layers, HeavyLibrariesStayInTheirFolders) {
 }
 TEST(Layers, CommandLineLibraryIsInOneFile) {
   for (const Include& i : includes_below({"kernel", "parametric", "verify", "app"}))
-    if (i.target.rfind("CLI/", 0) == 0) EXPECT_EQ(i.file, "app/cli/main.cpp");
+    if (i.target.rfind("CLI/", 0) == 0) {
+      EXPECT_EQ(i.file, "app/cli/main.cpp");
+    }
 }
 TEST(Layers, DecompositionsStayInOneFile) {
   for (const Include& i : includes_below({"kernel", "parametric", "verify", "app"}))
     if (starts_with_any(i.target, {"Eigen/Dense", "Eigen/SVD", "Eigen/QR", "Eigen/LU", "Eigen/Cholesky",
-                                   "Eigen/Eigenvalues"}))
+                                   "Eigen/Eigenvalues"})) {
       EXPECT_EQ(i.file, "kernel/math/dense_solve.cpp");
+    }
 }
 
 }  // namespace
