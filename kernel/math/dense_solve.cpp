@@ -1,8 +1,8 @@
 #include "kernel/math/dense_solve.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -146,10 +146,36 @@ LeastSquares least_squares(const Eigen::Ref<const Eigen::MatrixXd>& A,
 
 Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& A,
                       const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
-  if (!(lu.rcond() > eps))
-    throw GeometryError("linear system of " + std::to_string(A.rows()) + " unknowns: the matrix is singular");
-  return lu.solve(b);
+  const Index n = A.rows();
+  const auto singular = [n] {
+    return GeometryError("linear system of " + std::to_string(n) + " unknowns: the matrix is singular");
+  };
+  RowMajor lu = A, x = b;
+  for (Index i = 0; i < n; ++i) {  // every row to the same size, so that pivots can be compared with 1
+    const double size = lu.row(i).cwiseAbs().maxCoeff();
+    if (!(size > 0.0) || !std::isfinite(size)) throw singular();
+    lu.row(i) /= size;
+    x.row(i) /= size;
+  }
+  for (Index k = 0; k < n; ++k) {
+    Index pivot = k;
+    lu.col(k).tail(n - k).cwiseAbs().maxCoeff(&pivot);
+    pivot += k;
+    lu.row(k).swap(lu.row(pivot));
+    x.row(k).swap(x.row(pivot));
+    if (!(std::abs(lu(k, k)) > eps * static_cast<double>(n))) throw singular();
+    for (Index i = k + 1; i < n; ++i) {
+      const double f = lu(i, k) / lu(k, k);
+      if (f == 0.0) continue;
+      lu.row(i).tail(n - k - 1) -= f * lu.row(k).tail(n - k - 1);
+      x.row(i) -= f * x.row(k);
+    }
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    for (Index i = k + 1; i < n; ++i) x.row(k) -= lu(k, i) * x.row(i);
+    x.row(k) /= lu(k, k);
+  }
+  return x;
 }
 
 Eigen::MatrixXd solve_banded(const Eigen::Ref<const Eigen::MatrixXd>& bands, int lower, bool cyclic,

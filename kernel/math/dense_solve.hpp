@@ -1,5 +1,5 @@
 #pragma once
-// The only place where dynamic Eigen decompositions are instantiated (they dominate compile time).
+// The only place of dynamic decompositions. They are our own and short: those of Eigen dominate compile time.
 #include <Eigen/Core>
 
 namespace blendwright {
@@ -14,7 +14,8 @@ struct LeastSquares {
 [[nodiscard]] LeastSquares least_squares(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                          const Eigen::Ref<const Eigen::MatrixXd>& b);
 
-/// Solves A x = b by LU with partial pivoting; throws GeometryError when A is singular to working precision.
+/// Solves A x = b by LU with row scaling and partial pivoting; throws GeometryError when A is singular to
+/// working precision: a pivot below n eps of its row.
 [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                     const Eigen::Ref<const Eigen::MatrixXd>& b);
 

@@ -44,7 +44,8 @@ TEST(BandedSolve, SolvesOpenAndCyclicDominantSystemsOfAnySize) {
           bands(i, k) = 0.0;
       }
     const MatrixXd x = random_matrix(rng, n, 3);
-    EXPECT_LE((solve_banded(bands, lower, cyclic, A * x) - x).cwiseAbs().maxCoeff(), 15 * 60 * eps);
+    EXPECT_LE((solve_banded(bands, lower, cyclic, A.lazyProduct(x)) - x).cwiseAbs().maxCoeff(),
+              15 * 60 * eps);
   });
 }
 
@@ -66,7 +67,7 @@ TEST(DenseSolve, SolvesAndRefusesSingularMatrices) {
     MatrixXd A = random_matrix(rng, n, n);
     A.diagonal().array() += 2.0 * n;  // condition <= 3
     const MatrixXd x = random_matrix(rng, n, 2);
-    EXPECT_LE((solve(A, A * x) - x).cwiseAbs().maxCoeff(), 3 * 20 * 20 * eps);
+    EXPECT_LE((solve(A, A.lazyProduct(x)) - x).cwiseAbs().maxCoeff(), 3 * 20 * 20 * eps);
     if (n == 1) return;
     A.row(0) = A.row(n - 1);
     EXPECT_THROW((void)solve(A, x), GeometryError);
@@ -81,7 +82,8 @@ TEST(LeastSquares, LeavesAResidualOrthogonalToTheColumns) {
     EXPECT_EQ(fit.rank, n);
     EXPECT_GE(fit.condition, 1.0);
     // Residual of size sqrt(m), columns of size sqrt(m); the error of x is amplified by the condition.
-    EXPECT_LE((A.transpose() * (b - A * fit.x)).cwiseAbs().maxCoeff(), 200 * eps * m * fit.condition);
+    EXPECT_LE(A.transpose().lazyProduct(MatrixXd(b - A.lazyProduct(fit.x))).cwiseAbs().maxCoeff(),
+              200 * eps * m * fit.condition);
   });
 }
 
@@ -107,10 +109,11 @@ TEST(LeastSquares, TakesTheShortestSolutionOfAWideSystem) {
     const MatrixXd A = random_matrix(rng, 3, 6), b = random_matrix(rng, 3, 1);
     const LeastSquares fit = least_squares(A, b);
     EXPECT_EQ(fit.rank, 3);
-    EXPECT_LE((A * fit.x - b).norm(), 100 * eps * fit.condition);
+    EXPECT_LE((A.lazyProduct(fit.x) - b).norm(), 100 * eps * fit.condition);
     // Shortest: x = A^T y for some y, so x is orthogonal to every vector that A takes to zero.
-    const MatrixXd y = solve(A * A.transpose(), b);
-    EXPECT_LE((fit.x - A.transpose() * y).norm(), 100 * eps * fit.condition * fit.condition * (1 + y.norm()));
+    const MatrixXd y = solve(A.lazyProduct(A.transpose()), b);
+    EXPECT_LE((fit.x - A.transpose().lazyProduct(y)).norm(),
+              100 * eps * fit.condition * fit.condition * (1 + y.norm()));
   });
 }
 
