@@ -1,6 +1,7 @@
 #include "kernel/brep/edge_chain.hpp"
 
 #include <BRep_Tool.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -136,6 +137,18 @@ LinkPoint LinkCurve::at(double t) const {
   gp_Vec d1, d2;
   curve_.D2(own(t), p, d1, d2);
   return {vec(p), rate() * vec(d1), rate() * rate() * vec(d2)};
+}
+
+std::vector<double> LinkCurve::breaks() const {
+  const int count = curve_.NbIntervals(GeomAbs_C3);
+  TColStd_Array1OfReal at(1, count + 1);
+  curve_.Intervals(at, GeomAbs_C3);
+  std::vector<double> t;
+  for (const double x : at) t.push_back((x - own(0.0)) / rate());
+  std::sort(t.begin(), t.end());
+  t.front() = 0.0;
+  t.back() = 1.0;
+  return t;
 }
 
 EdgeChain edge_chain(const StepPart::Impl& part, std::size_t face, std::size_t edge, bool extend) {

@@ -36,6 +36,8 @@ class LinkCurve {
   [[nodiscard]] double own(double t) const {
     return backward_ ? last_ - t * (last_ - first_) : first_ + t * (last_ - first_);
   }
+  /// t where the polynomial pieces of the edge's curve meet, 0 and 1 included.
+  [[nodiscard]] std::vector<double> breaks() const;
   /// d own / dt
   [[nodiscard]] double rate() const { return backward_ ? first_ - last_ : last_ - first_; }
 

@@ -2,7 +2,9 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
@@ -16,6 +18,7 @@
 #include <TopExp_Explorer.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <algorithm>
 #include <gp_Circ.hxx>
 #include <gp_Elips.hxx>
 
@@ -40,12 +43,15 @@ std::string step_name(const STEPControl_Reader& reader, const TopoDS_Shape& shap
   return "";
 }
 
-/// A point well inside the face: the middle of the longest stretch of a few parameter lines that lies in it.
-Vec3 anchor_of(const TopoDS_Face& face, const detail::FaceGeometry& g) {
+/// Points well inside the face, best first: middles of the stretches of a few parameter lines that lie in it.
+std::vector<Vec3> anchors_of(const TopoDS_Face& face, const detail::FaceGeometry& g) {
   const BRepTopAdaptor_FClass2d classifier(face, 1e-9 * (g.box.u.length() + g.box.v.length()));
   constexpr int steps = 48;
-  Vec2 best(g.box.u.middle(), g.box.v.middle());
-  int longest = 0;
+  struct Stretch {
+    int length = 0;
+    Vec2 middle;
+  };
+  std::vector<Stretch> found;
   for (const double t : {0.5, 0.3, 0.7, 0.1, 0.9, 0.03, 0.97}) {
     int run = 0;
     for (int i = 0; i <= steps; ++i) {
@@ -53,15 +59,45 @@ Vec3 anchor_of(const TopoDS_Face& face, const detail::FaceGeometry& g) {
       const bool in = i < steps && classifier.Perform(detail::pnt(uv)) == TopAbs_IN;
       if (in) ++run;
       if (in || run == 0) continue;
-      if (run > longest) {
-        longest = run;
-        best = Vec2(g.box.u.at((i - 0.5 * run) / steps), g.box.v.at(t));
-      }
+      for (const double part : {0.5, 0.2, 0.8})  // the middle first
+        found.push_back({part == 0.5 ? run : run / 4, {g.box.u.at((i - part * run) / steps), g.box.v.at(t)}});
       run = 0;
     }
-    if (longest >= steps / 4) break;
   }
-  return detail::vec(g.geometry->Value(best.x(), best.y()));
+  if (found.empty()) found.push_back({0, {g.box.u.middle(), g.box.v.middle()}});
+  // A stretch of a quarter of the line is as good as a longer one: the middle line comes first then.
+  std::stable_sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) {
+    return std::min(a.length, steps / 4) > std::min(b.length, steps / 4);
+  });
+  std::vector<Vec3> points;
+  for (const Stretch& s : found) points.push_back(detail::vec(g.geometry->Value(s.middle.x(), s.middle.y())));
+  return points;
+}
+
+/// Chooses anchors that lie on no other face of the same kind where there are such: solids of an assembly
+/// touch.
+void choose_anchors(StepPart::Impl& part) {
+  std::vector<Bnd_Box> boxes(part.faces.size());
+  for (const FaceInfo& f : part.faces) BRepBndLib::Add(part.face(f.index), boxes[f.index]);
+  const double slack = 1e-5 * part.size;
+  const auto alone = [&](const FaceInfo& face, const Vec3& p) {
+    for (const FaceInfo& other : part.faces) {
+      if (other.index == face.index || other.surface != face.surface) continue;
+      Bnd_Box box = boxes[other.index];
+      box.Enlarge(slack);
+      if (box.IsOut(detail::pnt(p))) continue;
+      BRepExtrema_DistShapeShape d(BRepBuilderAPI_MakeVertex(detail::pnt(p)).Vertex(),
+                                   part.face(other.index));
+      if (d.IsDone() && d.NbSolution() > 0 && d.Value() <= slack) return false;
+    }
+    return true;
+  };
+  for (FaceInfo& f : part.faces) {
+    const std::vector<Vec3> points =
+        anchors_of(part.face(f.index), detail::face_geometry(part.face(f.index)));
+    const auto best = std::find_if(points.begin(), points.end(), [&](const Vec3& p) { return alone(f, p); });
+    f.anchor = best == points.end() ? points.front() : *best;
+  }
 }
 
 FaceInfo describe(const TopoDS_Face& face, std::size_t index) {
@@ -73,7 +109,6 @@ FaceInfo describe(const TopoDS_Face& face, std::size_t index) {
   info.surface = detail::surface_kind(g.geometry);
   info.size = detail::size_text(g);
   info.area = std::abs(area.Mass());
-  info.anchor = anchor_of(face, g);
   info.reversed = g.reversed;
   return info;
 }
@@ -129,6 +164,7 @@ void fill(StepPart::Impl& part) {
   Bnd_Box box;
   BRepBndLib::Add(part.shape, box);
   part.size = std::sqrt(box.SquareExtent());
+  choose_anchors(part);
   part.tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(part.shape, 1);
   part.valid = BRepCheck_Analyzer(part.shape).IsValid();
   for (TopExp_Explorer e(part.shape, TopAbs_SOLID); e.More(); e.Next()) ++part.solids;
