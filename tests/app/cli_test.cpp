@@ -298,6 +298,30 @@ TEST(Program, SaysThatStandardOutputIsFull) {
   EXPECT_THAT(outcome.err, HasSubstr("standard output cannot be written"));
 }
 
+/// What the program writes to standard error when that is a terminal.
+std::string on_a_terminal(const std::string& arguments, const std::string& before) {
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY);
+  if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) return "no terminal";
+  const std::string terminal = ::ptsname(master);
+  const std::string line =
+      before + " '" BLENDWRIGHT_PROGRAM "' " + arguments + " >/dev/null 2>'" + terminal + "'";
+  const int keep_open = ::open(terminal.c_str(), O_RDWR | O_NOCTTY);
+  const int status = std::system(line.c_str());
+  std::array<char, 4096> text{};
+  const ssize_t size = status < 0 ? 0 : ::read(master, text.data(), text.size());
+  ::close(keep_open);
+  ::close(master);
+  return std::string(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+}
+
+TEST(Program, ColoursMessagesOnATerminalUnlessNoColorIsSet) {
+  const std::string coloured = on_a_terminal("verify /missing.json", "env -u NO_COLOR");
+  if (coloured == "no terminal") GTEST_SKIP() << "no pseudo-terminals here";
+  EXPECT_THAT(coloured, AllOf(HasSubstr("missing.json"), HasSubstr("\x1b[31m")));
+  const std::string plain = on_a_terminal("verify /missing.json", "NO_COLOR=1");
+  EXPECT_THAT(plain, AllOf(HasSubstr("missing.json"), Not(HasSubstr("\x1b"))));
+}
+
 /// The program with a pipe to its standard input.
 class Running {
  public:
