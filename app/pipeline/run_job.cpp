@@ -110,6 +110,22 @@ Blend build_blend(const BlendEntry& entry, const JobSpec& job, const std::vector
   }
 }
 
+/// Literal data leave the kept part of primary 0 and enter that of primary 1, by definition; along the line
+/// the majority decides, since typed tangents need not be good ones.
+bool literal_keeps_left(const Trimline& line, const EndCondition& end, std::size_t side) {
+  double out = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    const double v = line.domain().v.at((i + 0.377) / 16.0);
+    const CurveJet<2> at = line.pcurve().jet(v);
+    const SurfaceJet P = line.primary().jet({at.C()[0], at.C()[1]});
+    const Vec3 k = P.Su.cross(P.Sv).cross(line.jet(v).C1());
+    const Vec3 T = derivative(end.series(v).T, 0);
+    const double scale = k.norm() * T.norm();
+    if (scale > 0.0) out += k.dot(T) / scale;
+  }
+  return (side == 0) == (out < 0.0);
+}
+
 }  // namespace
 
 BlendFitOptions fit_options(const Tolerance& tolerance) {
@@ -133,14 +149,8 @@ BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
     s.pcurve = line->pcurve();
     if (result.blend.tangents) {
       s.kept_left = result.blend.tangents->kept_left[i];
-    } else {  // literal data: T0 leaves the kept part, T1 enters it, by definition
-      const CurveDomain range = line->domain();
-      const double v = range.v.at(0.377);
-      const CurveJet<2> at = line->pcurve().jet(v);
-      const SurfaceJet P = line->primary().jet({at.C()[0], at.C()[1]});
-      const Vec3 k = P.Su.cross(P.Sv).cross(line->jet(v).C1());
-      const double out = k.dot(derivative(result.blend.surface.end(static_cast<int>(i)).series(v).T, 0));
-      s.kept_left = (i == 0) == (out < 0.0);
+    } else {
+      s.kept_left = literal_keeps_left(*line, result.blend.surface.end(static_cast<int>(i)), i);
     }
     return s;
   };

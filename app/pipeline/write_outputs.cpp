@@ -80,11 +80,32 @@ void verify_step(JobResult& result, const StepContent& content) {
   }
 }
 
-/// The shape's triangles, split into blends and primaries in the order of the assembly.
+/// The shape's triangles, and the same per blend and per primary of the assembly with the measured errors.
 struct Meshes {
-  std::vector<TriMesh> all, blends, primaries;
+  std::vector<TriMesh> all, blends, primaries;  ///< a primary of which nothing stays has an empty mesh
   std::vector<PolyLine> lines;
 };
+
+/// The meshes of all faces of that name as one.
+TriMesh joined_mesh(const std::vector<TriMesh>& faces, const std::string& wanted) {
+  TriMesh joined;
+  for (const TriMesh& face : faces) {
+    if (face.name != wanted) continue;
+    if (joined.points.empty()) {
+      joined = face;
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(joined.points.size());
+    joined.points.insert(joined.points.end(), face.points.begin(), face.points.end());
+    joined.normals.insert(joined.normals.end(), face.normals.begin(), face.normals.end());
+    for (const auto& t : face.triangles)
+      joined.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    for (std::size_t c = 0; c < joined.columns.size(); ++c)
+      joined.columns[c].values.insert(joined.columns[c].values.end(), face.columns[c].values.begin(),
+                                      face.columns[c].values.end());
+  }
+  return joined;
+}
 
 Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shape& shape) {
   Meshes m;
@@ -96,16 +117,12 @@ Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shap
       size = std::max(size, (p - m.blends.back().points[0]).norm());
   }
   m.all = tessellate(shape, 5e-4 * size, degrees(6.0));
-  for (std::size_t p = 0; p < assembly.primaries.size(); ++p) {
-    const PrimaryPatch& patch = assembly.primaries[p];
+  for (const PrimaryPatch& patch : assembly.primaries) {
     std::vector<PolyLine> lines;
     for (const PrimaryCut& cut : patch.cuts)
       lines.push_back(m.lines[2 * cut.blend + static_cast<std::size_t>(cut.side)]);
-    for (const TriMesh& mesh : m.all)
-      if (mesh.name == patch.name) {
-        m.primaries.push_back(mesh);
-        add_seam_errors(m.primaries.back(), lines, result.job.unit);
-      }
+    m.primaries.push_back(joined_mesh(m.all, patch.name));
+    add_seam_errors(m.primaries.back(), lines, result.job.unit);
   }
   return m;
 }
@@ -133,6 +150,11 @@ void write_meshes(const JobResult& result, const Plan& plan, const Meshes& meshe
       wrote(plan.trimlines[i], "vtp");
     }
     for (std::size_t i = 0; i < plan.primary_meshes.size(); ++i) {
+      if (meshes.primaries[i].triangles.empty()) {
+        outputs.notes.push_back(plan.primary_meshes[i].filename().string() +
+                                ": not written, the trimline leaves nothing of this primary");
+        continue;
+      }
       write_vtp(plan.primary_meshes[i], meshes.primaries[i]);
       wrote(plan.primary_meshes[i], "vtp");
     }
@@ -189,7 +211,7 @@ bool verified(const JobResult& result, const JobOutputs* outputs) {
     if (blend.stages.empty()) return false;
     const std::array<Continuity, 2> asked{blend.entry.sides[0].side.continuity,
                                           blend.entry.sides[1].side.continuity};
-    for (const Finding& f : judge(blend.stages.back(), asked, result.job.tolerance))
+    for (const Finding& f : judge(blend.stages.back(), asked, result.job.tolerance, result.job.unit))
       if (f.failed) return false;
   }
   if (!outputs || !outputs->step) return true;

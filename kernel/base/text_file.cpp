@@ -28,6 +28,9 @@ std::string read_text_file(const fs::path& file, std::size_t limit) {
 }
 
 UnfinishedFile::UnfinishedFile(fs::path file) : file_(std::move(file)) {
+  std::error_code ignored;
+  if (fs::exists(file_, ignored) && !fs::is_regular_file(file_, ignored))
+    throw IoError(file_.string() + ": is not a regular file; choose another name");
   // The extension stays last: some writers choose the format by it.
   std::string name = ".";
   name += file_.stem().string() + ".unfinished-" + std::to_string(::getpid()) + file_.extension().string();

@@ -15,7 +15,8 @@ void write_text_file(const std::filesystem::path& file, std::string_view text);
 /// otherwise.
 class UnfinishedFile {
  public:
-  explicit UnfinishedFile(std::filesystem::path file);
+  explicit UnfinishedFile(
+      std::filesystem::path file);  ///< throws IoError when `file` is a folder or a device
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
