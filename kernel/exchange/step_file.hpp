@@ -33,7 +33,7 @@ struct StepFace {
 struct StepContent {
   std::vector<StepFace> faces;  ///< in the order of the file
   ShapeCheck check;
-  std::string schema, unit;
+  std::string schema, unit;  ///< as the file states them: "AP242_MANAGED_...", "mm"
   std::size_t bytes = 0;
 };
 [[nodiscard]] StepContent read_step(const std::filesystem::path& file,

@@ -101,7 +101,8 @@ void read_statements(const std::filesystem::path& file, StepContent& content) {
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   content.bytes = text.size();
-  content.schema = after(text, "FILE_SCHEMA", '\'', '\'');
+  const std::string schema = after(text, "FILE_SCHEMA", '\'', '\'');
+  content.schema = schema.substr(0, schema.find_first_of(" .{\n"));
   content.unit = length_unit(text);
 }
 

@@ -4,10 +4,12 @@
 
 #include <BRep_Builder.hxx>
 #include <TopoDS_Shell.hxx>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "kernel/base/error.hpp"
 #include "kernel/brep/shape_impl.hpp"
@@ -122,6 +124,24 @@ TEST_F(StepFile, TwoRunsGiveTheSameBytes) {
   setenv("SOURCE_DATE_EPOCH", "1700000001", 1);
   write_step(folder_ / "b/joint.step", shape, {});
   EXPECT_NE(a, bytes_of(folder_ / "b/joint.step"));
+}
+
+TEST_F(StepFile, SeveralThreadsMayWriteAndRead) {
+  const Shape shape = assemble(coaxial(), tolerance).shape;
+  std::vector<std::thread> threads;
+  std::array<StepContent, 4> read;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    threads.emplace_back([&, i] {
+      const auto file = folder_ / (std::to_string(i) + ".step");
+      const LengthUnit unit = i % 2 ? LengthUnit::inch : LengthUnit::metre;
+      write_step(file, shape, {StepSchema::AP242, unit, "joint"});
+      read[i] = read_step(file, unit);
+    });
+  for (std::thread& t : threads) t.join();
+  for (const StepContent& c : read) {
+    EXPECT_TRUE(c.check.valid);
+    EXPECT_NEAR(c.check.area, coaxial_area, 1e-5 * coaxial_area);
+  }
 }
 
 TEST_F(StepFile, LeavesNothingWhereItCannotWrite) {
