@@ -73,7 +73,7 @@ Vec3 coefficient(const Term& term, double u, const std::array<CardinalValues, 3>
 class Rows {
  public:
   Rows(std::size_t count, std::size_t length, const double* out)
-      : stride_((length + line - 1) / line * line), memory_(count * stride_ + 2 * line) {
+      : stride_((length + line - 1) / line * line + line), memory_(count * stride_ + 2 * line) {
     const auto place = [](const double* p) {
       return reinterpret_cast<std::uintptr_t>(p) / sizeof(double) % line;
     };
@@ -118,7 +118,7 @@ void evaluate_separable(const OdeBlend& blend, std::span<const double> u, std::s
                                     .uniform = !global || has_common_functions(blend),
                                     .stream = out.size_bytes() >= streaming_bytes};
   // Tiles of the grid: small enough for many tasks, long enough that whole pages are written in one go.
-  constexpr std::size_t tile_rows = 16, tile_columns = 3 * 4096;
+  constexpr std::size_t tile_rows = 32, tile_columns = 3 * 4096;
   const std::size_t across = (length + tile_columns - 1) / tile_columns;
   const std::size_t down = (u.size() + tile_rows - 1) / tile_rows;
   parallel_for(across * down, 1, [&](std::size_t begin, std::size_t end) {

@@ -27,14 +27,17 @@ std::size_t head_length(const double* p, std::size_t lanes) {
   return offset == 0 ? 0 : lanes - offset;
 }
 
+/// (1) for one element.
+double combined_element(const RowCombination& task, std::size_t i, std::size_t j) {
+  const double* c = task.coefficients + i * task.count * 3 + j % 3;
+  double sum = c[0] * task.rows[j];
+  for (std::size_t k = 1; k < task.count; ++k) sum += c[3 * k] * task.rows[k * task.stride + j];
+  return sum;
+}
+
 /// (1) element by element, for what lies before the first and after the last whole vector.
 void combine_scalars(const RowCombination& task, std::size_t i, std::size_t j0, std::size_t j1) {
-  const double* c = task.coefficients + i * task.count * 3;
-  for (std::size_t j = j0; j < j1; ++j) {
-    double sum = c[j % 3] * task.rows[j];
-    for (std::size_t k = 1; k < task.count; ++k) sum += c[3 * k + j % 3] * task.rows[k * task.stride + j];
-    task.out[i * task.length + j] = sum;
-  }
+  for (std::size_t j = j0; j < j1; ++j) task.out[i * task.length + j] = combined_element(task, i, j);
 }
 
 template <bool kStream, class V>
@@ -113,20 +116,40 @@ void combine_vectors(const RowCombination& task, std::size_t i, std::size_t j0, 
   }
 }
 
+/// The vector of `out` that starts at (i, j) and ends in the next row.
+void combine_joint(const RowCombination& task, std::size_t i, std::size_t j) {
+  const Lanes d;
+  HWY_ALIGN double joint[HWY_MAX_BYTES / sizeof(double)];
+  for (std::size_t l = 0; l < hn::Lanes(d); ++l) {
+    const std::size_t over = j + l < task.length ? 0 : 1;
+    joint[l] = combined_element(task, i + over, j + l - over * task.length);
+  }
+  double* out = task.out + i * task.length + j;
+  if (task.stream)
+    put<true>(hn::Load(d, joint), out);
+  else
+    put<false>(hn::Load(d, joint), out);
+}
+
 void combine(const RowCombination& task, std::size_t i0, std::size_t i1, std::size_t j0, std::size_t j1) {
   const std::size_t N = hn::Lanes(Lanes());
+  // Where whole rows follow each other, the vector across their joint is written with the earlier row: a
+  // cache line that is streamed in two parts costs as much as many.
+  const bool joined = j0 == 0 && j1 == task.length && task.length >= 2 * N;
   for (std::size_t b0 = j0; b0 < j1; b0 += block)
     for (std::size_t i = i0; i < i1; ++i) {
-      // Segments of a row meet at vector boundaries of `out`, so that streaming stores fill whole cache
-      // lines.
+      // Segments of a row meet at vector boundaries of `out`.
       const std::size_t head = head_length(task.out + i * task.length + j0, N);
       const std::size_t first = std::min(b0 + head, j1);
       const std::size_t last = b0 + block >= j1 ? j1 : std::min(b0 + block + head, j1);
-      if (b0 == j0) combine_scalars(task, i, j0, first);
+      if (b0 == j0 && (!joined || i == i0)) combine_scalars(task, i, j0, first);
       if (first >= last) continue;
       const std::size_t vectors_end = first + (last - first) / N * N;
       combine_vectors(task, i, first, vectors_end);
-      combine_scalars(task, i, vectors_end, last);
+      if (joined && i + 1 < i1 && vectors_end < last)
+        combine_joint(task, i, vectors_end);
+      else
+        combine_scalars(task, i, vectors_end, last);
     }
   if (task.stream) hwy::FlushStream();
 }
