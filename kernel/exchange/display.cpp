@@ -85,8 +85,10 @@ std::filesystem::path find_program(const char* name) {
   ::setpgid(0, 0);  // Ctrl-C is the program's to handle: without its display VTK would end the process
   ::dup2(ready, ready_fd);
   ::close_range(ready_fd + 1, ~0u, 0);
-  const std::array<const char*, 9> arguments{program, "-screen",    "0", "1600x1200x24", "-nolisten",
-                                             "tcp",   "-displayfd", "3", nullptr};
+  // -noreset: else the server starts over when its last client leaves, and refuses a client that comes just
+  // then.
+  const std::array<const char*, 10> arguments{program, "-screen",    "0", "1600x1200x24", "-nolisten",
+                                              "tcp",   "-displayfd", "3", "-noreset",     nullptr};
   ::execv(program, const_cast<char* const*>(arguments.data()));
   ::_exit(127);
 }
