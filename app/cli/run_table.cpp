@@ -65,16 +65,16 @@ const Deviation& decisive(const SeamRow& row, const Tolerance& tolerance) {
   return *worst;
 }
 
-/// A figure that was not asked for stands in brackets.
+/// A figure that was not asked for stands in brackets; what is far below rounding is 0.
 std::string figure(double x, bool asked) {
-  const std::string text = x == 0.0 ? "0" : scientific_text(x);
+  const std::string text = std::abs(x) < 1e-18 ? "0" : scientific_text(x);
   return asked ? text : "(" + text + ")";
 }
 
 std::string seam_table(const std::vector<SeamRow>& rows, const JobSpec& job) {
   const std::string unit = name(job.unit);
-  TextRows table{
-      {"blend", "side", "asked", "got", "gap/" + unit, "angle/deg", "jump*" + unit, "worst at v (x,y,z)"}};
+  TextRows table{{"blend", "side", "asked", "reached", "gap (" + unit + ")", "angle (deg)",
+                  "jump (1/" + unit + ")", "worst at v"}};
   std::vector<std::string> places;
   for (const SeamRow& r : rows) {
     const Deviation& at = decisive(r, job.tolerance);
