@@ -126,6 +126,15 @@ bool literal_keeps_left(const Trimline& line, const EndCondition& end, std::size
   return (side == 0) == (out < 0.0);
 }
 
+BlendFit fit(const BlendEntry& entry, const OdeBlend& blend, const JobSpec& job,
+             const Progress& progress) try {
+  return fit_blend(blend, fit_options(job.tolerance), Progress{.stop = progress.stop});
+} catch (const GeometryError& e) {
+  throw GeometryError("/blends/" + entry.name + ": " + e.what());
+} catch (const ConvergenceError& e) {
+  throw ConvergenceError("/blends/" + entry.name + ": " + e.what());
+}
+
 }  // namespace
 
 BlendFitOptions fit_options(const Tolerance& tolerance) {
@@ -166,7 +175,7 @@ JobResult run_job(const JobSpec& job, const Progress& progress) {
   for (const BuiltPrimary& p : primaries) result.primaries.emplace_back(p.name, p.surface);
   result.times.push_back({"primaries", watch.lap()});
 
-  double build = 0.0, fit = 0.0, verify = 0.0;
+  double building = 0.0, fitting = 0.0, verifying = 0.0;
   for (std::size_t i = 0; i < job.blends.size(); ++i) {
     const BlendEntry& entry = job.blends[i];
     const double done = static_cast<double>(i) / static_cast<double>(job.blends.size());
@@ -175,20 +184,21 @@ JobResult run_job(const JobSpec& job, const Progress& progress) {
     watch.lap();
     Blend blend = build_blend(entry, job, primaries, result.warnings);
     for (const std::string& w : blend.warnings) result.warnings.push_back("/blends/" + entry.name + ": " + w);
-    build += watch.lap();
+    building += watch.lap();
     stage("fitting");
-    BlendFit fitted = fit_blend(blend.surface, fit_options(job.tolerance), Progress{.stop = progress.stop});
-    fit += watch.lap();
+    BlendFit fitted = fit(entry, blend.surface, job, progress);
+    fitting += watch.lap();
     stage("verifying");
     BlendResult r{entry, std::move(blend), std::move(fitted), {}, {}};
     for (std::size_t s = 0; s < 2; ++s)
       if (r.blend.trimlines[s]) r.primaries[s] = r.blend.trimlines[s]->primary();
     r.stages.push_back(verify_blend(under_test(r, r.blend.surface), "formula"));
     r.stages.push_back(verify_blend(under_test(r, r.fit.surface), "fitted"));
-    verify += watch.lap();
+    verifying += watch.lap();
     result.blends.push_back(std::move(r));
   }
-  result.times.insert(result.times.end(), {{"building", build}, {"fitting", fit}, {"verifying", verify}});
+  result.times.insert(result.times.end(),
+                      {{"building", building}, {"fitting", fitting}, {"verifying", verifying}});
   return result;
 }
 

@@ -165,10 +165,31 @@ BlendFit fit_separable(const OdeBlend& blend, const BlendFitOptions& options, co
   return {net(blend, groups, fits.across, fits.along), report};
 }
 
+// A periodic spline has no corner at its seam: data that close in value only must be called open.
+void require_smooth_closing(const OdeBlend& blend) {
+  const SurfaceDomain domain = blend.domain();
+  if (!domain.v_closed) return;
+  constexpr double corner = 1e-5;  // relative; typed formulas close to rounding, trimlines to 1e-6
+  for (const double u : {0.0, 0.5, 1.0}) {
+    const SurfaceJet a = blend.jet({u, domain.v.lo}), b = blend.jet({u, domain.v.hi});
+    const double first = (a.Sv - b.Sv).norm(), cross = (a.Suv - b.Suv).norm();
+    if (first <= corner * (a.Sv.norm() + b.Sv.norm()) &&
+        cross <= corner * (a.Suv.norm() + b.Suv.norm() + a.Sv.norm()))
+      continue;
+    throw GeometryError("the blend is called closed, but at u = " + number_text(u) + " dS/dv is (" +
+                        number_text(a.Sv[0], 4) + ", " + number_text(a.Sv[1], 4) + ", " +
+                        number_text(a.Sv[2], 4) + ") at v = " + number_text(domain.v.lo, 6) + " and (" +
+                        number_text(b.Sv[0], 4) + ", " + number_text(b.Sv[1], 4) + ", " +
+                        number_text(b.Sv[2], 4) + ") at v = " + number_text(domain.v.hi, 6) +
+                        "; boundary data must close with their derivatives, or \"closed\" must be false");
+  }
+}
+
 }  // namespace
 
 BlendFit fit_blend(const OdeBlend& blend, const BlendFitOptions& options, const Progress& progress) {
   check(options);
+  require_smooth_closing(blend);
   return blend.separable() ? fit_separable(blend, options, progress) : fit_tensor(blend, options, progress);
 }
 

@@ -43,8 +43,8 @@ struct BlendFit {
   BlendFitReport report;
 };
 
-/// Throws InputError when a tolerance is not positive, ConvergenceError when max_control_points do not
-/// suffice; says what was reached.
+/// Throws InputError when a tolerance is not positive, GeometryError when a closed blend has a corner at its
+/// seam, ConvergenceError when max_control_points do not suffice; says what was reached.
 [[nodiscard]] BlendFit fit_blend(const OdeBlend& blend, const BlendFitOptions& options,
                                  const Progress& progress = {});
 

@@ -91,6 +91,7 @@ constexpr BadJob bad_jobs[] = {
     {"through-pole", "/blends/reducer", "passes a pole of its primary", 4},
     {"tolerance-zero", "/tolerance/position", "is 0, must be > 0", 3},
     {"torus-cuts-itself", "/primaries/thin/minor_radius", "must be less than the major_radius 1", 3},
+    {"literal-not-closing", "/blends/transition", "boundary data must close with their derivatives", 4},
     {"touching-trimlines", "/blends/reducer", "the trimlines touch at v = 0", 4},
     {"trailing-text", "", "expected end of input", 3},
     {"trimline-off-surface", "/blends/reducer/from/trimline", "leaves its primary", 4},
