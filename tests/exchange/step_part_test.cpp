@@ -11,6 +11,7 @@
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <Geom_CylindricalSurface.hxx>
+#include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
 
 #include <cstdlib>
@@ -36,6 +37,9 @@ StepPart part_of(const TopoDS_Shape& shape, LengthUnit unit = LengthUnit::millim
   {
     const detail::ExchangeSession session(LengthUnit::millimetre);
     STEPControl_Writer writer;
+    // Without pcurves, as CAD systems write: with them OCCT 7.6.3 reads a drilled sphere back as its
+    // complement.
+    Interface_Static::SetIVal("write.surfacecurve.mode", 0);
     writer.Transfer(shape, STEPControl_AsIs);
     if (writer.Write((folder / "part.step").c_str()) != IFSelect_RetDone)
       throw std::runtime_error("no STEP file");
