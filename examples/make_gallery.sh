@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Renders the pictures of examples/gallery from the job files: make_gallery.sh path/to/blendwright
+set -euo pipefail
+program=$(realpath "$1")
+cd "$(dirname "$0")"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p gallery
+for job in specs/*.json; do
+  name=$(basename "$job" .json)
+  "$program" blend "$job" -o "$work" --force --quiet || [ $? -eq 1 ]   # 1: the printed figures are not tangent, and shown
+  cp "$work/$name.png" gallery/
+done
+cp "$work/branch-to-main.errors.png" gallery/
