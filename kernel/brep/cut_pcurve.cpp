@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "kernel/brep/occt_geometry.hpp"
+#include "kernel/brep/parameter_curves.hpp"
+#include "kernel/brep/surface_kinks.hpp"
 #include "kernel/geometry/spline_interpolation.hpp"
 
 namespace blendwright::detail {
@@ -40,12 +42,15 @@ class Gap {
   std::vector<gp_Pnt> edge_;
 };
 
+/// Quintic spline through the cut at the breaks; at its ends, which may be corners of the cut, derivatives
+/// are the limits from inside.
 BSplineCurve<2> quintic(const std::function<CurveJet<2>(double)>& cut, const std::vector<double>& breaks) {
   const BSplineBasis basis = BSplineBasis::clamped(5, breaks);
   Eigen::MatrixXd values(static_cast<Eigen::Index>(breaks.size()), 2), start(2, 2), end(2, 2);
   for (std::size_t i = 0; i < breaks.size(); ++i)
     values.row(static_cast<Eigen::Index>(i)) = cut(breaks[i]).C().transpose();
-  const CurveJet<2> a = cut(breaks.front()), b = cut(breaks.back());
+  const double inside = 1e-9 * (breaks.back() - breaks.front());
+  const CurveJet<2> a = cut(breaks.front() + inside), b = cut(breaks.back() - inside);
   start << a.C1().transpose(), a.C2().transpose();
   end << b.C1().transpose(), b.C2().transpose();
   const Eigen::MatrixXd control = complete_control(basis, values, start, end);
@@ -88,9 +93,16 @@ CutPcurve cut_pcurve(const std::function<CurveJet<2>(double)>& cut, const Interv
   const BSplineCurve<2> line(BSplineBasis::clamped(1, {range.lo, range.hi}), {a, b});
   std::optional<BSplineCurve<2>> best(line);
   double best_gap = gap([&](double v) { return line.jet(v).C(); });
-  if (best_gap > own + 1e-3 * slack)  // a line that is only nearly one is worth a spline
+  if (best_gap > own + 1e-3 * slack) {  // a line that is only nearly one is worth a spline
+    std::vector<double> corners = surface_kinks(
+        surface, [&](double v) { return cut(v).C(); }, range);
+    corners.insert(corners.begin(), range.lo);
+    corners.push_back(range.hi);
     for (const int stride : {8, 4, 2, 1, -2, -4, -8}) {
-      const BSplineCurve<2> next = quintic(cut, thinned(range, breaks, stride));
+      std::vector<BSplineCurve<2>> pieces;
+      for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+        pieces.push_back(quintic(cut, thinned({corners[i], corners[i + 1]}, breaks, stride)));
+      const BSplineCurve<2> next = joined(pieces, false);
       const double next_gap = gap([&](double v) { return next.jet(v).C(); });
       if (next_gap < best_gap) {
         best = next;
@@ -98,6 +110,7 @@ CutPcurve cut_pcurve(const std::function<CurveJet<2>(double)>& cut, const Interv
       }
       if (best_gap <= own + slack) break;
     }
+  }
   return {to_occt(*best), best_gap};
 }
 

@@ -11,7 +11,9 @@
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "kernel/base/number_text.hpp"
 #include "kernel/brep/occt_geometry.hpp"
@@ -25,6 +27,47 @@ using opencascade::handle;
 Interval clip(double lo, double hi, double first, double last, bool periodic, double period) {
   if (periodic) return hi - lo > period * (1.0 - 1e-9) ? Interval{lo, lo + period} : Interval{lo, hi};
   return {std::max(lo, first), std::min(hi, last)};
+}
+
+/// Partials of a cylinder, cone, sphere or torus; empty for other geometry.
+///   S(u, v) = O + r(v) (cos u X + sin u Y) + z(v) Z                                                      (1)
+/// cylinder (R, v), cone (R + v sin a, v cos a), sphere (R cos v, R sin v), torus (R + m cos v, m sin v).
+/// Geom_Surface::DN is not used for them: in OpenCASCADE 7.6.3, DN(0, 1) of a cone lacks its part along the
+/// axis, and fourth derivatives of a torus are wrong.
+std::optional<SurfacePartials> turned_partials(const handle<Geom_Surface>& geometry, double u, double v) {
+  using Profile = std::array<double, 5>;  // value and four derivatives
+  Profile r{}, z{};
+  const auto arc = [v](double centre, double radius) {
+    const double c = radius * std::cos(v), s = radius * std::sin(v);
+    return std::pair<Profile, Profile>{{centre + c, -s, -c, s, c}, {s, c, -s, -c, s}};
+  };
+  gp_Ax3 axes;
+  if (const auto c = handle<Geom_CylindricalSurface>::DownCast(geometry)) {
+    axes = c->Position();
+    r[0] = c->Radius(), z[0] = v, z[1] = 1.0;
+  } else if (const auto k = handle<Geom_ConicalSurface>::DownCast(geometry)) {
+    axes = k->Position();
+    r[1] = std::sin(k->SemiAngle()), z[1] = std::cos(k->SemiAngle());
+    r[0] = k->RefRadius() + v * r[1], z[0] = v * z[1];
+  } else if (const auto s = handle<Geom_SphericalSurface>::DownCast(geometry)) {
+    axes = s->Position();
+    std::tie(r, z) = arc(0.0, s->Radius());
+  } else if (const auto t = handle<Geom_ToroidalSurface>::DownCast(geometry)) {
+    axes = t->Position();
+    std::tie(r, z) = arc(t->MajorRadius(), t->MinorRadius());
+  } else {
+    return std::nullopt;
+  }
+  const Vec3 X = vec(gp_Vec(axes.XDirection())), Y = vec(gp_Vec(axes.YDirection())),
+             Z = vec(gp_Vec(axes.Direction()));
+  const Vec3 e = std::cos(u) * X + std::sin(u) * Y, f = std::cos(u) * Y - std::sin(u) * X;
+  const std::array<Vec3, 5> turn{e, f, -e, -f, e};  // derivatives of e by u
+  SurfacePartials P;
+  for (std::size_t n = 0; n <= 4; ++n)
+    for (std::size_t j = 0; j <= n; ++j)
+      P(static_cast<int>(n - j), static_cast<int>(j)) = r[j] * turn[n - j] + (n == j ? z[j] : 0.0) * Z;
+  P(0, 0) += vec(axes.Location());
+  return P;
 }
 
 std::string lengths(const char* label, double x) { return std::string(label) + number_text(x, 6); }
@@ -42,10 +85,14 @@ SurfaceJet OcctSurface::jet(UV p) const {
 SurfacePartials OcctSurface::partials(UV p) const {
   SurfacePartials P;
   const double sign = mirrored_ ? -1.0 : 1.0;
-  P(0, 0) = vec(geometry_->Value(p.u, sign * p.v));
-  for (int n = 1; n <= 4; ++n)
-    for (int j = 0; j <= n; ++j)
-      P(n - j, j) = (j % 2 == 1 ? sign : 1.0) * vec(geometry_->DN(p.u, sign * p.v, n - j, j));
+  const auto turned = turned_partials(geometry_, p.u, sign * p.v);
+  for (int n = 0; n <= 4; ++n)
+    for (int j = 0; j <= n; ++j) {
+      const Vec3 d = turned   ? (*turned)(n - j, j)
+                     : n == 0 ? vec(geometry_->Value(p.u, sign * p.v))
+                              : vec(geometry_->DN(p.u, sign * p.v, n - j, j));
+      P(n - j, j) = (j % 2 == 1 ? sign : 1.0) * d;
+    }
   return P;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Private: curves in a surface's parameters that a periodic spline alone cannot express.
 #include <utility>
+#include <vector>
 
 #include "kernel/geometry/bspline.hpp"
 #include "kernel/geometry/curve.hpp"
@@ -30,5 +31,8 @@ struct WindingSpline {
   }
   [[nodiscard]] CurveDomain domain() const { return spline.domain(); }
 };
+
+/// Clamped pieces one after the other as one spline, with C0 knots between them.
+[[nodiscard]] BSplineCurve<2> joined(const std::vector<BSplineCurve<2>>& pieces, bool closed);
 
 }  // namespace blendwright::detail

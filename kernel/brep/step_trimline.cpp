@@ -5,6 +5,7 @@
 #include "kernel/brep/chain_on_surface.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/parameter_curves.hpp"
+#include "kernel/brep/surface_kinks.hpp"
 #include "kernel/geometry/spline_interpolation.hpp"
 
 namespace blendwright {
@@ -84,31 +85,6 @@ Stations by_arc_length(const detail::WindingSpline& curve, const FaceGeometry& g
   return r;
 }
 
-/// Clamped pieces one after the other as one spline, with C0 knots between them.
-BSplineCurve<2> joined(const std::vector<BSplineCurve<2>>& pieces, bool closed) {
-  std::vector<double> breaks;
-  std::vector<int> mults;
-  std::vector<Vec2> control;
-  const int degree = pieces.front().basis().degree();
-  for (const BSplineCurve<2>& p : pieces) {
-    const bool first = breaks.empty();
-    if (!first) {
-      breaks.pop_back();
-      mults.pop_back();
-      control.pop_back();
-    }
-    breaks.insert(breaks.end(), p.basis().breaks().begin(), p.basis().breaks().end());
-    mults.insert(mults.end(), p.basis().multiplicities().begin(), p.basis().multiplicities().end());
-    if (!first) mults[mults.size() - p.basis().multiplicities().size()] = degree;
-    control.insert(control.end(), p.control().begin(), p.control().end());
-  }
-  if (closed) {
-    mults.front() = mults.back() = degree;
-    control.pop_back();
-  }
-  return {BSplineBasis(degree, std::move(breaks), std::move(mults), closed), std::move(control)};
-}
-
 BSplineCurve<2> without_drift(const BSplineCurve<2>& c, const Vec2& rate, double origin) {
   // Greville abscissae reproduce linear functions: subtracting rate * greville subtracts the line exactly.
   std::vector<Vec2> control = c.control();
@@ -128,9 +104,16 @@ Curve2 fit_chain(const ChainOnSurface& chain, const FaceGeometry& g, bool closed
         probe.uv.front(), (probe.uv.back() - probe.uv.front()) / length, {{0.0, length}, closed}};
   }
   std::vector<double> corners = chain.corners();
-  corners.insert(corners.begin(), 0.0);
-  corners.push_back(chain.length());
-  const bool periodic = closed && corners.size() == 2 && chain.smooth_closing();
+  const std::vector<double> kinks = detail::surface_kinks(
+      g.geometry, [&](double s) { return chain.uv(chain.place(s), middle); }, {0.0, chain.length()});
+  corners.insert(corners.end(), kinks.begin(), kinks.end());
+  corners.insert(corners.end(), {0.0, chain.length()});
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end(),
+                            [&](double a, double b) { return b - a < 1e-6 * chain.length(); }),
+                corners.end());
+  const bool periodic = closed && corners.size() == 2 && chain.smooth_closing() &&
+                        !detail::on_surface_kink(g.geometry, probe.uv.front());
   std::vector<BSplineCurve<2>> pieces;
   double s = 0.0;
   Vec2 near = middle;
@@ -160,10 +143,10 @@ Curve2 fit_chain(const ChainOnSurface& chain, const FaceGeometry& g, bool closed
     s = best->domain().v.hi;
     near = best->jet(s).C();
   }
-  if (!closed) return joined(pieces, false);
+  if (!closed) return detail::joined(pieces, false);
   const Vec2 rate = (pieces.back().control().back() - pieces.front().control().front()) / s;
   for (BSplineCurve<2>& p : pieces) p = without_drift(p, rate, 0.0);
-  return detail::WindingSpline{joined(pieces, true), rate};
+  return detail::WindingSpline{detail::joined(pieces, true), rate};
 }
 
 /// Largest distance from points of the edges to the curve's image at the same place along it.

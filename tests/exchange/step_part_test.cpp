@@ -7,6 +7,7 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
@@ -126,9 +127,11 @@ TEST(StepPart, NormalsPointOutOfTheMaterial) {
   EXPECT_TRUE(hole_reversed);  // else the reversed case was not tested
 }
 
-TEST(StepPart, PartialsAgreeWithDifferences) {
-  const StepPart part = part_of(plate());
+/// All partials of all faces, against differences of the next lower ones.
+void expect_consistent_partials(const TopoDS_Shape& shape) {
+  const StepPart part = part_of(shape);
   for (const FaceInfo& f : part.faces()) {
+    SCOPED_TRACE(f.surface);
     const Surface s = part.surface(f.index);
     const SurfaceDomain d = s.domain();
     const UV p{d.u.at(0.31), d.v.at(0.62)};
@@ -145,6 +148,13 @@ TEST(StepPart, PartialsAgreeWithDifferences) {
     const SurfaceJet jet = s.jet(p);
     EXPECT_LE((jet.Suv - P(1, 1)).norm() + (jet.Svv - P(0, 2)).norm() + (jet.Sv - P(0, 1)).norm(), 1e-12);
   }
+}
+
+TEST(StepPart, PartialsAgreeWithDifferences) {
+  expect_consistent_partials(plate());
+  expect_consistent_partials(BRepPrimAPI_MakeCone(z_axis(0, 0, 0), 1.0, 2.0, 3.0).Shape());
+  expect_consistent_partials(BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, 0), 2.0).Shape());
+  expect_consistent_partials(BRepPrimAPI_MakeTorus(2.0, 1.0).Shape());
 }
 
 TEST(StepPart, LocationIsApplied) {
