@@ -84,6 +84,7 @@ ChainOnSurface::ChainOnSurface(const StepPart::Impl& part, const EdgeChain& chai
                           refined(breaks, std::max<std::size_t>(4, 64 / breaks.size())));
     start_.push_back(length_);
     length_ += travels_.back().total();
+    tolerance_ = std::max(tolerance_, BRep_Tool::Tolerance(part.edge(link.edge)));
   }
 }
 
@@ -111,6 +112,16 @@ std::vector<double> ChainOnSurface::corners() const {
       found.push_back(start_[i + 1]);
   }
   return found;
+}
+
+Radians ChainOnSurface::sharpest_joint(bool closed) const {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    if (i + 1 == curves_.size() && !closed) break;
+    const Vec3 a = curves_[i].at(1.0).C1, b = curves_[(i + 1) % curves_.size()].at(0.0).C1;
+    worst = std::max(worst, std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  return Radians(worst);
 }
 
 Vec2 ChainOnSurface::on_face(const Place& p) const {

@@ -28,6 +28,10 @@ class ChainOnSurface {
   [[nodiscard]] Vec2 uv(const Place& p, const Vec2& near) const;
   /// Lengths, strictly inside, where the tangent or the curvature jumps.
   [[nodiscard]] std::vector<double> corners() const;
+  /// The largest angle between the tangents of two edges that meet, 0 with one open edge.
+  [[nodiscard]] Radians sharpest_joint(bool closed) const;
+  /// Largest tolerance that the part states for its edges.
+  [[nodiscard]] double tolerance() const { return tolerance_; }
   [[nodiscard]] bool smooth_closing() const {
     return smooth(curves_.back().at(1.0), curves_.front().at(0.0));
   }
@@ -41,7 +45,7 @@ class ChainOnSurface {
   std::vector<opencascade::handle<Geom2d_Curve>> pcurves_;
   std::vector<Travel> travels_;
   std::vector<double> start_;
-  double length_ = 0.0;
+  double length_ = 0.0, tolerance_ = 0.0;
 };
 
 }  // namespace blendwright::detail

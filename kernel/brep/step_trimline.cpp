@@ -1,6 +1,8 @@
 // Edges of a part as one curve in the parameters of one surface, by arc length.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "kernel/brep/chain_on_surface.hpp"
 #include "kernel/brep/occt_geometry.hpp"
@@ -93,6 +95,42 @@ BSplineCurve<2> without_drift(const BSplineCurve<2>& c, const Vec2& rate, double
   return {c.basis(), std::move(control)};
 }
 
+/// Largest distance from points of the edges to the curve's image at the same place along it.
+double deviation(const ChainOnSurface& chain, const FaceGeometry& g, const Curve2& pcurve) {
+  constexpr int samples = 509;
+  double worst = 0.0;
+  const Interval v = pcurve.domain().v;
+  for (int i = 0; i <= samples; ++i) {
+    const double t = static_cast<double>(i) / samples;
+    const Vec2 uv = pcurve.point(v.at(t));
+    const Vec3 on_surface = detail::vec(g.geometry->Value(uv.x(), uv.y()));
+    ChainOnSurface::Place place = chain.place(t * chain.length());
+    for (int k = 0; k < 4; ++k) {  // towards the nearest point of the edge
+      const LinkPoint c = chain.edge_point(place);
+      place.t = std::clamp(place.t + (on_surface - c.C).dot(c.C1) / c.C1.squaredNorm(), 0.0, 1.0);
+    }
+    worst = std::max(worst, (chain.edge_point(place).C - on_surface).norm());
+  }
+  return worst;
+}
+
+/// One smooth line that follows the chain as well as the part itself does: edges of imprecise parts meet at
+/// small angles that are not meant, and that no smooth blend could follow. Empty when the edges are precise.
+std::optional<Curve2> smoothed_chain(const ChainOnSurface& chain, const FaceGeometry& g, bool closed) {
+  constexpr double exact = 1e-6, meant = 1.0 / 180.0 * std::numbers::pi;  // angle at a joint, radians
+  const double turn = chain.sharpest_joint(closed).value;
+  if (turn <= exact || turn >= meant) return std::nullopt;
+  const Vec2 middle(g.box.u.middle(), g.box.v.middle());
+  for (const std::size_t n : {32, 64, 128, 256}) {
+    const Stations rough = stations(chain, 0.0, chain.length(), n, middle);
+    const detail::WindingSpline line = through(by_arc_length(through(rough, closed), g, n, 0.0), closed);
+    const Curve2 curve = line.rate.isZero(0.0) ? Curve2(line.spline) : Curve2(line);
+    // The edge itself may be a tolerance away from the face.
+    if (deviation(chain, g, curve) <= 2.0 * chain.tolerance()) return curve;
+  }
+  return std::nullopt;
+}
+
 /// The whole chain as pieces between corners.
 Curve2 fit_chain(const ChainOnSurface& chain, const FaceGeometry& g, bool closed) {
   const Vec2 middle(g.box.u.middle(), g.box.v.middle());
@@ -103,6 +141,7 @@ Curve2 fit_chain(const ChainOnSurface& chain, const FaceGeometry& g, bool closed
     return detail::ParameterLine{
         probe.uv.front(), (probe.uv.back() - probe.uv.front()) / length, {{0.0, length}, closed}};
   }
+  if (const auto line = smoothed_chain(chain, g, closed)) return *line;
   std::vector<double> corners = chain.corners();
   const std::vector<double> kinks = detail::surface_kinks(
       g.geometry, [&](double s) { return chain.uv(chain.place(s), middle); }, {0.0, chain.length()});
@@ -147,25 +186,6 @@ Curve2 fit_chain(const ChainOnSurface& chain, const FaceGeometry& g, bool closed
   const Vec2 rate = (pieces.back().control().back() - pieces.front().control().front()) / s;
   for (BSplineCurve<2>& p : pieces) p = without_drift(p, rate, 0.0);
   return detail::WindingSpline{detail::joined(pieces, true), rate};
-}
-
-/// Largest distance from points of the edges to the curve's image at the same place along it.
-double deviation(const ChainOnSurface& chain, const FaceGeometry& g, const Curve2& pcurve) {
-  constexpr int samples = 509;
-  double worst = 0.0;
-  const Interval v = pcurve.domain().v;
-  for (int i = 0; i <= samples; ++i) {
-    const double t = static_cast<double>(i) / samples;
-    const Vec2 uv = pcurve.point(v.at(t));
-    const Vec3 on_surface = detail::vec(g.geometry->Value(uv.x(), uv.y()));
-    ChainOnSurface::Place place = chain.place(t * chain.length());
-    for (int k = 0; k < 4; ++k) {  // towards the nearest point of the edge
-      const LinkPoint c = chain.edge_point(place);
-      place.t = std::clamp(place.t + (on_surface - c.C).dot(c.C1) / c.C1.squaredNorm(), 0.0, 1.0);
-    }
-    worst = std::max(worst, (chain.edge_point(place).C - on_surface).norm());
-  }
-  return worst;
 }
 
 /// v -> -v of a reversed face, in the curve's parameters.
