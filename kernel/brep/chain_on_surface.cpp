@@ -128,20 +128,7 @@ Vec2 ChainOnSurface::on_face(const Place& p) const {
   // The edge's curve in space is the part's own statement. The parameter curve was often made by the reader,
   // and is only a first guess: millimetres off have been seen on edges whose stated tolerance is 1e-7.
   const gp_Pnt2d guess = pcurves_[p.link]->Value(curves_[p.link].own(p.t));
-  const Vec3 target = edge_point(p).C;
-  Vec2 uv(guess.X(), guess.Y());
-  for (int k = 0; k < 12; ++k) {
-    gp_Pnt q;
-    gp_Vec du, dv;
-    carrier_.geometry->D1(uv.x(), uv.y(), q, du, dv);
-    const Vec3 a = vec(du), b = vec(dv), r = target - vec(q);
-    const double E = a.dot(a), F = a.dot(b), G = b.dot(b), det = E * G - F * F;
-    if (!(det > 1e-14 * E * G)) break;  // a pole: the guess stays
-    const Vec2 step((G * a.dot(r) - F * b.dot(r)) / det, (E * b.dot(r) - F * a.dot(r)) / det);
-    uv += step;
-    if (step.norm() <= 1e-15 * (1.0 + uv.norm())) break;
-  }
-  return uv;
+  return foot_near(carrier_.geometry, edge_point(p).C, {guess.X(), guess.Y()});
 }
 
 bool ChainOnSurface::smooth(const LinkPoint& a, const LinkPoint& b) const {

@@ -43,19 +43,6 @@ std::set<std::size_t> faces_on_same_surface(const StepPart::Impl& part, std::siz
   return group;
 }
 
-/// The border of a group of faces: edge -> the one face of the group that uses it.
-std::map<std::size_t, std::size_t> border(const StepPart::Impl& part, const std::set<std::size_t>& group) {
-  std::map<std::size_t, std::size_t> uses, owner;
-  for (const std::size_t f : group)
-    for (TopExp_Explorer e(part.face(f), TopAbs_EDGE); e.More(); e.Next())
-      if (const int k = part.edge_map.FindIndex(e.Current()); k > 0) {
-        ++uses[static_cast<std::size_t>(k - 1)];
-        owner[static_cast<std::size_t>(k - 1)] = f;
-      }
-  std::erase_if(owner, [&](const auto& item) { return uses[item.first] > 1; });
-  return owner;
-}
-
 TopoDS_Vertex vertex_at(const StepPart::Impl& part, const ChainLink& link, bool end) {
   TopoDS_Vertex first, last;
   const TopoDS_Edge edge = TopoDS::Edge(part.edge(link.edge).Oriented(TopAbs_FORWARD));
@@ -126,6 +113,19 @@ bool material_left(const StepPart::Impl& part, const ChainLink& link) {
 
 }  // namespace
 
+std::map<std::size_t, std::size_t> border_edges(const StepPart::Impl& part,
+                                                const std::set<std::size_t>& group) {
+  std::map<std::size_t, std::size_t> uses, owner;
+  for (const std::size_t f : group)
+    for (TopExp_Explorer e(part.face(f), TopAbs_EDGE); e.More(); e.Next())
+      if (const int k = part.edge_map.FindIndex(e.Current()); k > 0) {
+        ++uses[static_cast<std::size_t>(k - 1)];
+        owner[static_cast<std::size_t>(k - 1)] = f;
+      }
+  std::erase_if(owner, [&](const auto& item) { return uses[item.first] > 1; });
+  return owner;
+}
+
 LinkCurve::LinkCurve(const StepPart::Impl& part, const ChainLink& link)
     : curve_(part.edge(link.edge)),
       backward_(link.backward),
@@ -159,7 +159,7 @@ EdgeChain edge_chain(const StepPart::Impl& part, std::size_t face, std::size_t e
   if (part.edges[edge].closed)
     chain.closed = tangent_at(part, only, true).dot(tangent_at(part, only, false)) > std::cos(largest_turn);
   else if (extend)
-    extend_both_ways(part, chain, border(part, faces_on_same_surface(part, face)));
+    extend_both_ways(part, chain, border_edges(part, faces_on_same_surface(part, face)));
   return chain;
 }
 

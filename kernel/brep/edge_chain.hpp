@@ -1,6 +1,8 @@
 #pragma once
 // Private: edges of a part that continue each other along faces on one surface.
 #include <BRepAdaptor_Curve.hxx>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "kernel/brep/occt_surface.hpp"
@@ -19,6 +21,10 @@ struct EdgeChain {
   bool closed = false;    ///< ends where it starts, with the same tangent
   bool kept_left = true;  ///< material of the face to the left of the running direction
 };
+
+/// The edges around a group of faces: edge -> the one face of the group that uses it.
+[[nodiscard]] std::map<std::size_t, std::size_t> border_edges(const StepPart::Impl& part,
+                                                              const std::set<std::size_t>& group);
 
 /// The edge alone, or with those that continue it tangentially along faces on the same elementary surface.
 [[nodiscard]] EdgeChain edge_chain(const StepPart::Impl& part, std::size_t face, std::size_t edge,

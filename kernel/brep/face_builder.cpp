@@ -23,9 +23,9 @@ const double least = Precision::Confusion();
 
 }  // namespace
 
-TopoDS_Vertex VertexPool::at(const Vec3& p) {
+TopoDS_Vertex VertexPool::at(const Vec3& p, double tolerance) {
   const TopoDS_Vertex* best = nullptr;
-  double nearest = tolerance_;
+  double nearest = tolerance;
   for (const TopoDS_Vertex& v : vertices_)
     if (const double d = (vec(BRep_Tool::Pnt(v)) - p).norm(); d <= nearest) {
       nearest = d;

@@ -17,7 +17,8 @@ namespace blendwright::detail {
 class VertexPool {
  public:
   explicit VertexPool(double tolerance) : tolerance_(tolerance) {}
-  [[nodiscard]] TopoDS_Vertex at(const Vec3& p);
+  [[nodiscard]] TopoDS_Vertex at(const Vec3& p) { return at(p, tolerance_); }
+  [[nodiscard]] TopoDS_Vertex at(const Vec3& p, double tolerance);
   void add(const TopoDS_Vertex& vertex) { vertices_.push_back(vertex); }
 
  private:

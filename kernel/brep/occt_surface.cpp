@@ -11,11 +11,13 @@
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
 
 #include "kernel/base/number_text.hpp"
+#include "kernel/brep/face_boundary.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 
 namespace blendwright::detail {
@@ -120,12 +122,15 @@ Surface oriented_surface(const FaceGeometry& face) {
     const auto whole = [](const Interval& a, const Interval& b) {
       return std::abs(a.lo - b.lo) + std::abs(a.hi - b.hi) <= 1e-9 * b.length();
     };
-    if (const auto ours = from_occt(spline))
+    const bool lines_inside =
+        face.boundary && std::any_of(face.boundary->lines.begin(), face.boundary->lines.end(),
+                                     [&](const BoundaryLine& line) { return !on_border(line, face.box); });
+    if (const auto ours = from_occt(spline); ours && !lines_inside)
       if (whole(face.box.u, ours->domain().u) && whole(face.box.v, ours->domain().v)) return *ours;
   }
   SurfaceDomain box = face.box;
   if (face.reversed) box.v = mirrored(box.v);
-  return OcctSurface(face.geometry, face.reversed, box);
+  return OcctSurface(face.geometry, face.reversed, box, face.boundary);
 }
 
 std::string surface_kind(const handle<Geom_Surface>& geometry) {
@@ -195,6 +200,21 @@ std::optional<Vec2> elementary_parameters(const handle<Geom_Surface>& geometry, 
   else
     return std::nullopt;
   return Vec2(u, v);
+}
+
+Vec2 foot_near(const handle<Geom_Surface>& geometry, const Vec3& p, Vec2 uv) {
+  for (int k = 0; k < 12; ++k) {
+    gp_Pnt q;
+    gp_Vec du, dv;
+    geometry->D1(uv.x(), uv.y(), q, du, dv);
+    const Vec3 a = vec(du), b = vec(dv), r = p - vec(q);
+    const double E = a.dot(a), F = a.dot(b), G = b.dot(b), det = E * G - F * F;
+    if (!(det > 1e-14 * E * G)) break;
+    const Vec2 step((G * a.dot(r) - F * b.dot(r)) / det, (E * b.dot(r) - F * a.dot(r)) / det);
+    uv += step;
+    if (step.norm() <= 1e-15 * (1.0 + uv.norm())) break;
+  }
+  return uv;
 }
 
 bool same_elementary(const handle<Geom_Surface>& a, const handle<Geom_Surface>& b, double tolerance,

@@ -3,6 +3,7 @@
 #include <Geom_Surface.hxx>
 #include <TopoDS_Face.hxx>
 #include <gp_Ax3.hxx>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,23 +11,29 @@
 
 namespace blendwright::detail {
 
+struct FaceBoundary;
+
 /// S(u, v) = G(u, v), or G(u, -v) when `mirrored`, so that Su x Sv can follow a reversed face. Evaluates the
 /// geometry itself, never an adaptor: adaptors cache and may not be shared by threads.
 class OcctSurface {
  public:
   /// `box` is in the parameters of S: of a mirrored surface, v is already negated.
-  OcctSurface(opencascade::handle<Geom_Surface> geometry, bool mirrored, SurfaceDomain box)
-      : geometry_(std::move(geometry)), mirrored_(mirrored), box_(box) {}
+  /// `boundary`: the edges of the face that the surface was taken from, where there is one.
+  OcctSurface(opencascade::handle<Geom_Surface> geometry, bool mirrored, SurfaceDomain box,
+              std::shared_ptr<const FaceBoundary> boundary = nullptr)
+      : geometry_(std::move(geometry)), mirrored_(mirrored), box_(box), boundary_(std::move(boundary)) {}
   [[nodiscard]] SurfaceJet jet(UV p) const;
   [[nodiscard]] SurfacePartials partials(UV p) const;
   [[nodiscard]] SurfaceDomain domain() const { return box_; }
   [[nodiscard]] const opencascade::handle<Geom_Surface>& geometry() const { return geometry_; }
   [[nodiscard]] bool mirrored() const { return mirrored_; }
+  [[nodiscard]] const std::shared_ptr<const FaceBoundary>& boundary() const { return boundary_; }
 
  private:
   opencascade::handle<Geom_Surface> geometry_;
   bool mirrored_;
   SurfaceDomain box_;
+  std::shared_ptr<const FaceBoundary> boundary_;
 };
 
 /// What lies under a face: location applied, trimming stripped, parameter box of the face in the geometry's
@@ -35,6 +42,7 @@ struct FaceGeometry {
   opencascade::handle<Geom_Surface> geometry;
   bool reversed = false;
   SurfaceDomain box;
+  std::shared_ptr<const FaceBoundary> boundary{};  ///< where somebody asked for it
 };
 [[nodiscard]] FaceGeometry face_geometry(const TopoDS_Face& face);
 /// The oriented surface; a forward, polynomial B-spline that the face uses whole becomes our own
@@ -51,6 +59,8 @@ struct FaceGeometry {
 /// Parameters of the point of a plane, cylinder, cone, sphere or torus next to `p`; empty for other geometry.
 [[nodiscard]] std::optional<Vec2> elementary_parameters(const opencascade::handle<Geom_Surface>& geometry,
                                                         const Vec3& p);
+/// Parameters of the surface's point next to `p`, by Newton's method from a guess; at a pole the guess stays.
+[[nodiscard]] Vec2 foot_near(const opencascade::handle<Geom_Surface>& geometry, const Vec3& p, Vec2 guess);
 /// True when both are the same elementary surface as a set of points, to `tolerance` in position over `size`.
 [[nodiscard]] bool same_elementary(const opencascade::handle<Geom_Surface>& a,
                                    const opencascade::handle<Geom_Surface>& b, double tolerance, double size);

@@ -58,6 +58,7 @@ std::optional<PrimaryGeometry> elementary(const Surface& s) {
   if (const auto* o = s.target<OcctSurface>()) {
     PrimaryGeometry p;
     p.geometry = o->geometry();
+    p.boundary = o->boundary();
     p.box = o->domain();
     if (o->mirrored()) {
       p.map(1, 1) = -1.0;
@@ -105,7 +106,8 @@ PrimaryGeometry primary_geometry(const Surface& surface, double tolerance) {
   if (const auto own = elementary(surface)) return *own;
   if (const auto* moved = surface.target<PlacedSurface>()) {
     PrimaryGeometry p = primary_geometry(moved->shape, tolerance);
-    p.geometry = handle<Geom_Surface>::DownCast(p.geometry->Transformed(transform(moved->motion)));
+    p.placement = transform(moved->motion);
+    p.geometry = handle<Geom_Surface>::DownCast(p.geometry->Transformed(p.placement));
     return p;
   }
   PrimaryGeometry p;
@@ -130,6 +132,7 @@ PrimaryGeometry with_seams(const PrimaryGeometry& primary, const Vec2& seams) {
     if (const auto axis = turning_axis(p.geometry)) {
       p.geometry = handle<Geom_Surface>::DownCast(p.geometry->Rotated(*axis, seams.x()));
       p.origin.x() -= seams.x();
+      p.shift.x() -= seams.x();
       p.box.u = {0.0, period};
     } else {
       p.box.u = {seams.x(), seams.x() + period};

@@ -1,10 +1,14 @@
 #pragma once
 // Private: a primary as geometry of the CAD kernel.
 #include <Geom_Surface.hxx>
+#include <gp_Trsf.hxx>
+#include <memory>
 
 #include "kernel/geometry/surface.hpp"
 
 namespace blendwright::detail {
+
+struct FaceBoundary;
 
 /// The geometry G and the map of parameters, S(u, v) = G(origin + map (u, v)).
 struct PrimaryGeometry {
@@ -12,6 +16,11 @@ struct PrimaryGeometry {
   Eigen::Matrix2d map = Eigen::Matrix2d::Identity();
   Vec2 origin = Vec2::Zero();
   SurfaceDomain box;  ///< in G's parameters
+  /// Edges around the face that the surface was taken from: in G's parameters once `shift` is added, in space
+  /// once `placement` is applied. Empty for other surfaces.
+  std::shared_ptr<const FaceBoundary> boundary{};
+  Vec2 shift = Vec2::Zero();
+  gp_Trsf placement{};
   [[nodiscard]] Vec2 operator()(const Vec2& uv) const { return origin + map * uv; }
   /// G's normal is opposite to Su x Sv.
   [[nodiscard]] bool flipped() const { return map.determinant() < 0.0; }

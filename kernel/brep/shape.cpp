@@ -7,6 +7,7 @@
 
 #include "kernel/base/number_text.hpp"
 #include "kernel/brep/blend_face.hpp"
+#include "kernel/brep/bounded_region.hpp"
 #include "kernel/brep/cut_pcurve.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/primary_face.hpp"
@@ -19,15 +20,12 @@ namespace {
 
 using detail::BlendBorder;
 using detail::PrimaryGeometry;
-using detail::RegionBox;
 using detail::RegionCut;
-using detail::TrimRegion;
 
 /// A primary once it is known how its trimlines divide it.
 struct PreparedPrimary {
   const PrimaryPatch* patch = nullptr;
-  PrimaryGeometry geometry;
-  TrimRegion region;
+  detail::DividedPrimary divided;
 };
 
 std::string cut_name(const Assembly& assembly, const PrimaryCut& cut) {
@@ -42,13 +40,6 @@ CurveJet<2> on_geometry(const PrimaryCut& cut, const PrimaryGeometry& g, double 
   return j;
 }
 
-RegionBox region_box(const PrimaryGeometry& g, double tolerance) {
-  gp_Pnt p;
-  gp_Vec du, dv;
-  g.geometry->D1(g.box.u.at(0.43), g.box.v.at(0.43), p, du, dv);
-  return {g.box, {du.Magnitude(), dv.Magnitude()}, tolerance};
-}
-
 std::vector<RegionCut> region_cuts(const Assembly& assembly, const PrimaryPatch& patch,
                                    const PrimaryGeometry& g) {
   std::vector<RegionCut> cuts;
@@ -58,25 +49,11 @@ std::vector<RegionCut> region_cuts(const Assembly& assembly, const PrimaryPatch&
   return cuts;
 }
 
-/// Tries the possible places of the seams; the simplest division wins.
 PreparedPrimary prepare(const Assembly& assembly, const PrimaryPatch& patch, double tolerance) {
   const PrimaryGeometry plain = detail::primary_geometry(patch.surface, tolerance / 100.0);
-  const auto places = detail::seam_candidates(plain.box, region_cuts(assembly, patch, plain));
-  std::optional<PreparedPrimary> best;
-  double best_score = std::numeric_limits<double>::infinity();
-  for (const double u : places[0])
-    for (const double v : places[1]) {
-      const PrimaryGeometry g = detail::with_seams(plain, {u, v});
-      const TrimRegion region = trim_region(region_box(g, tolerance), region_cuts(assembly, patch, g));
-      double score =
-          100.0 * static_cast<double>(region.warnings.size()) + static_cast<double>(region.pieces.size());
-      score += region.faces.size() == 1 ? 0.0 : region.faces.empty() ? 1e6 : 1000.0;
-      for (const auto& f : region.faces) score += 0.1 * static_cast<double>(f.outer.size());
-      if (score >= best_score) continue;
-      best_score = score;
-      best = PreparedPrimary{&patch, g, region};
-    }
-  return std::move(*best);
+  return {&patch,
+          detail::divide_primary(
+              plain, [&](const PrimaryGeometry& g) { return region_cuts(assembly, patch, g); }, tolerance)};
 }
 
 using Borders = std::vector<std::array<BlendBorder, 2>>;
@@ -88,7 +65,7 @@ void split_borders(const std::vector<PreparedPrimary>& primaries, Borders& borde
       BlendBorder& border = borders[cut.blend][static_cast<std::size_t>(cut.side)];
       if (border.point) continue;
       border.pieces.clear();
-      for (const detail::CutPiece& piece : p.region.pieces)
+      for (const detail::CutPiece& piece : p.divided.region.pieces)
         if (piece.cut == c) border.pieces.push_back(piece.v);
       border.pieces.front().lo = border.v.lo;
       border.pieces.back().hi = border.v.hi;
@@ -105,12 +82,35 @@ void check_cut(const Assembly& assembly, const PrimaryPatch& patch, const Primar
                         number_text(own.hi, 6) + "]");
 }
 
+/// An edge of the primary's own face.
+detail::PieceEdge boundary_edge(const PreparedPrimary& p, const detail::CutPiece& piece,
+                                detail::VertexPool& pool, double tolerance) {
+  const detail::BoundaryLine& line = p.divided.lines[piece.cut - p.patch->cuts.size()];
+  const PrimaryGeometry& g = p.divided.geometry;
+  const auto curve = opencascade::handle<Geom_Curve>::DownCast(line.curve->Transformed(g.placement));
+  std::vector<double> breaks;
+  for (int i = 0; i <= 64; ++i) breaks.push_back(line.t.at(i / 64.0));
+  const auto pcurve = detail::cut_pcurve(
+      [&](double t) {
+        CurveJet<2> j = line.jet(t);
+        j.D[0] += g.shift + piece.shift;
+        return j;
+      },
+      piece.v, breaks, curve, g.geometry, 0.05 * tolerance);
+  const auto vertex = [&](double t) { return pool.at(detail::vec(curve->Value(t)), 10.0 * tolerance); };
+  return {detail::make_edge(curve, piece.v, vertex(piece.v.lo), vertex(piece.v.hi)), pcurve.curve};
+}
+
 std::vector<TopoDS_Face> faces_of(const Assembly& assembly, const PreparedPrimary& p, Borders& borders,
                                   double tolerance, std::vector<std::string>& warnings) {
   detail::VertexPool pool(tolerance);
   std::vector<detail::PieceEdge> edges;
   std::vector<std::size_t> used(p.patch->cuts.size(), 0);
-  for (const detail::CutPiece& piece : p.region.pieces) {
+  for (const detail::CutPiece& piece : p.divided.region.pieces) {
+    if (piece.cut >= p.patch->cuts.size()) {
+      edges.push_back(boundary_edge(p, piece, pool, tolerance));
+      continue;
+    }
     const PrimaryCut& cut = p.patch->cuts[piece.cut];
     const BlendBorder& border = borders[cut.blend][static_cast<std::size_t>(cut.side)];
     if (border.point)
@@ -118,11 +118,11 @@ std::vector<TopoDS_Face> faces_of(const Assembly& assembly, const PreparedPrimar
     const std::size_t i = used[piece.cut]++;
     const auto pcurve = detail::cut_pcurve(
         [&](double v) {
-          CurveJet<2> j = on_geometry(cut, p.geometry, v);
+          CurveJet<2> j = on_geometry(cut, p.divided.geometry, v);
           j.D[0] += piece.shift;
           return j;
         },
-        border.pieces[i], border.breaks, border.curve, p.geometry.geometry, 0.05 * tolerance);
+        border.pieces[i], border.breaks, border.curve, p.divided.geometry.geometry, 0.05 * tolerance);
     if (!(pcurve.gap <= tolerance))
       throw GeometryError("primary " + p.patch->name + ": " + cut_name(assembly, cut) + " lies " +
                           scientific_text(pcurve.gap) + " from the edge of the blend, must be within " +
@@ -131,9 +131,15 @@ std::vector<TopoDS_Face> faces_of(const Assembly& assembly, const PreparedPrimar
     for (const bool last : {false, true})
       pool.add(last ? TopExp::LastVertex(border.edges[i]) : TopExp::FirstVertex(border.edges[i]));
   }
-  for (const std::string& w : p.region.warnings) warnings.push_back("primary " + p.patch->name + ": " + w);
-  if (p.region.faces.empty()) warnings.push_back("primary " + p.patch->name + " is left out of the shape");
-  return primary_faces(p.geometry, p.region, edges, pool);
+  for (const std::string& w : p.divided.region.warnings)
+    warnings.push_back("primary " + p.patch->name + ": " + w);
+  if (p.divided.loses)
+    warnings.push_back("primary " + p.patch->name +
+                       ": the other boundaries of its face (holes, neighbouring edges) are not carried over; "
+                       "what is written reaches to the face's parameter box");
+  if (p.divided.region.faces.empty())
+    warnings.push_back("primary " + p.patch->name + " is left out of the shape");
+  return primary_faces(p.divided.geometry, p.divided.region, edges, pool);
 }
 
 AssemblyResult assemble_checked(const Assembly& assembly, double tolerance) {
@@ -166,7 +172,7 @@ AssemblyResult assemble_checked(const Assembly& assembly, double tolerance) {
   }
   for (const PreparedPrimary& p : primaries)
     for (TopoDS_Face& face : faces_of(assembly, p, borders, tolerance, warnings)) {
-      if (p.geometry.flipped()) face.Reverse();
+      if (p.divided.geometry.flipped()) face.Reverse();
       faces.push_back({face, p.patch->name, p.patch->colour, false, {true, true}});
     }
   std::vector<TopoDS_Face> plain;

@@ -55,8 +55,11 @@ class Shape {
 /// Builds one shell (a solid when it closes): each blend is one face, its trimline edges are the primaries'
 /// edges (one edge, one 3-D curve, two pcurves), never sewn. Primaries keep their own STEP entity where there
 /// is one (plane, circular cylinder, cone, sphere, torus, B-spline), else a B-spline within `tolerance` /
-/// 100. A primary whose trimline does not divide its domain is cut by straight parameter lines to the nearest
-/// border, which the warnings say. Throws GeometryError when an edge cannot be closed within `tolerance`.
+/// 100. A primary that is a face of a part keeps that face's own edges (outer border, holes), except those
+/// that a trimline replaces or removes; where they cannot be kept the warnings say so. The part's other faces
+/// are not in the shape. A primary whose trimline does not divide its domain is cut by straight parameter
+/// lines to the nearest border, which the warnings say. Throws GeometryError when an edge cannot be closed
+/// within `tolerance`.
 struct AssemblyResult {
   Shape shape;
   std::vector<std::string> warnings;

@@ -23,6 +23,7 @@
 #include <gp_Elips.hxx>
 
 #include "kernel/base/number_text.hpp"
+#include "kernel/brep/face_boundary.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/occt_session.hpp"
 #include "kernel/brep/occt_surface.hpp"
@@ -209,7 +210,11 @@ Surface StepPart::surface(std::size_t face) const {
   if (face >= impl_->faces.size())
     throw InputError("face",
                      "is " + std::to_string(face) + ", must be below " + std::to_string(impl_->faces.size()));
-  return detail::oriented_surface(detail::face_geometry(impl_->face(face)));
+  return detail::guarded<GeometryError>("face " + std::to_string(face), [&] {
+    detail::FaceGeometry g = detail::face_geometry(impl_->face(face));
+    g.boundary = std::make_shared<const detail::FaceBoundary>(detail::face_boundary(*impl_, {face}, g));
+    return detail::oriented_surface(g);
+  });
 }
 
 }  // namespace blendwright

@@ -29,10 +29,11 @@ std::string selector(const char* key, const std::string& kind, const Vec3& near,
          round(near.y()) + ", " + round(near.z()) + "]}" + (size.empty() ? "" : "  " + size);
 }
 
-/// The one candidate that is nearest; else an InputError that lists `all` (nearest first) by `text`.
+/// The one candidate that is nearest; else an InputError at `where` that lists `all` (nearest first) by
+/// `text`.
 template <class Text>
 std::size_t the_one(std::vector<Candidate> found, std::vector<Candidate> all, const std::string& what,
-                    bool near, double slack, Text text) {
+                    bool near, double slack, const char* where, Text text) {
   const auto nearer = [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; };
   std::stable_sort(found.begin(), found.end(), nearer);
   if (!found.empty() && !(found.front().distance < std::numeric_limits<double>::infinity())) found.clear();
@@ -51,7 +52,7 @@ std::size_t the_one(std::vector<Candidate> found, std::vector<Candidate> all, co
   constexpr std::size_t most = 24;
   for (std::size_t i = 0; i < std::min(most, found.size()); ++i) message += "\n  " + text(found[i].index);
   if (found.size() > most) message += "\n  and " + std::to_string(found.size() - most) + " more";
-  throw InputError("select", message);
+  throw InputError(where, message);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ std::size_t StepPart::select(const FaceSelector& s) const {
     if (s.surface.empty() || f.surface == s.surface) found.push_back(all.back());
   }
   return the_one(std::move(found), std::move(all), s.surface.empty() ? "face" : s.surface + " face",
-                 s.near.has_value(), 1e-6 * impl_->size, [&](std::size_t i) {
+                 s.near.has_value(), 1e-6 * impl_->size, "select", [&](std::size_t i) {
                    const FaceInfo& f = impl_->faces[i];
                    return selector("surface", f.surface, f.anchor, f.size);
                  });
@@ -77,7 +78,7 @@ std::size_t StepPart::select(const EdgeSelector& s, std::optional<std::size_t> o
     if (s.curve.empty() || e.curve == s.curve) found.push_back(all.back());
   }
   return the_one(std::move(found), std::move(all), s.curve.empty() ? "edge" : s.curve + " edge",
-                 s.near.has_value(), 1e-6 * impl_->size, [&](std::size_t i) {
+                 s.near.has_value(), 1e-6 * impl_->size, "near", [&](std::size_t i) {
                    const EdgeInfo& e = impl_->edges[i];
                    return selector("curve", e.curve, e.anchor, e.size);
                  });

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kernel/brep/chain_on_surface.hpp"
+#include "kernel/brep/face_boundary.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/parameter_curves.hpp"
 #include "kernel/brep/surface_kinks.hpp"
@@ -219,7 +220,10 @@ EdgeTrimline StepPart::trimline(std::size_t face, std::size_t edge, bool chain) 
                                  ", must be one of its border edges");
   return detail::guarded<GeometryError>("edge " + std::to_string(edge), [&] {
     const EdgeChain links = detail::edge_chain(*impl_, face, edge, chain);
-    const FaceGeometry g = detail::carrier(*impl_, links);
+    FaceGeometry g = detail::carrier(*impl_, links);
+    std::set<std::size_t> group;
+    for (const ChainLink& link : links.links) group.insert(link.face);
+    g.boundary = std::make_shared<const detail::FaceBoundary>(detail::face_boundary(*impl_, group, g));
     const ChainOnSurface on_surface(*impl_, links, g);
     const Curve2 pcurve = fit_chain(on_surface, g, links.closed);
     EdgeTrimline result{detail::oriented_surface(g),

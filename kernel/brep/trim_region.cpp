@@ -13,6 +13,30 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
+/// Corners of a wire and the samples of its cuts.
+std::vector<Vec2> polygon(const std::vector<CutPiece>& pieces, const RegionWire& wire) {
+  std::vector<Vec2> points;
+  for (const RegionSegment& s : wire) {
+    if (s.kind != RegionSegment::Kind::cut) {
+      points.push_back(s.from);
+      continue;
+    }
+    std::vector<Vec2> piece = pieces[s.piece].points;
+    if (s.backward) std::reverse(piece.begin(), piece.end());
+    points.insert(points.end(), piece.begin(), piece.end() - 1);
+  }
+  return points;
+}
+
+bool inside(const Vec2& q, const std::vector<Vec2>& p) {
+  bool in = false;
+  for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
+    if ((p[i].y() > q.y()) != (p[j].y() > q.y()) &&
+        q.x() < p[i].x() + (q.y() - p[i].y()) / (p[j].y() - p[i].y()) * (p[j].x() - p[i].x()))
+      in = !in;
+  return in;
+}
+
 /// A piece in its running direction: kept part on the left.
 struct Link {
   std::size_t piece = 0;
@@ -182,34 +206,12 @@ class Region {
     }
   }
 
-  /// Area inside a wire, from its corners and the samples of its cuts.
-  [[nodiscard]] std::vector<Vec2> polygon(const RegionWire& wire) const {
-    std::vector<Vec2> points;
-    for (const RegionSegment& s : wire) {
-      if (s.kind != RegionSegment::Kind::cut) {
-        points.push_back(s.from);
-        continue;
-      }
-      std::vector<Vec2> piece = result_.pieces[s.piece].points;
-      if (s.backward) std::reverse(piece.begin(), piece.end());
-      points.insert(points.end(), piece.begin(), piece.end() - 1);
-    }
-    return points;
-  }
+  /// Area inside a wire.
   [[nodiscard]] double area(const RegionWire& wire) const {
-    const std::vector<Vec2> p = polygon(wire);
+    const std::vector<Vec2> p = polygon(result_.pieces, wire);
     double twice = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) twice += cross(p[i], p[(i + 1) % p.size()]);
     return 0.5 * twice;
-  }
-  [[nodiscard]] bool inside(const Vec2& q, const RegionWire& wire) const {
-    const std::vector<Vec2> p = polygon(wire);
-    bool in = false;
-    for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
-      if ((p[i].y() > q.y()) != (p[j].y() > q.y()) &&
-          q.x() < p[i].x() + (q.y() - p[i].y()) / (p[j].y() - p[i].y()) * (p[j].x() - p[i].x()))
-        in = !in;
-    return in;
   }
 
   /// Wires of the chains that reach the border; empty when the kept sides contradict each other.
@@ -274,9 +276,9 @@ class Region {
     }
     for (RegionWire& o : outers) result_.faces.push_back({std::move(o), {}});
     for (RegionWire& h : holes) {
-      const Vec2 q = polygon(h).front();
+      const Vec2 q = polygon(result_.pieces, h).front();
       const auto owner = std::find_if(result_.faces.begin(), result_.faces.end(), [&](const RegionFace& f) {
-        return result_.faces.size() == 1 || inside(q, f.outer);
+        return result_.faces.size() == 1 || inside(q, polygon(result_.pieces, f.outer));
       });
       if (owner != result_.faces.end()) owner->holes.push_back(std::move(h));
     }
@@ -292,6 +294,16 @@ class Region {
 };
 
 }  // namespace
+
+bool region_contains(const SurfaceDomain& box, const TrimRegion& region, Vec2 p) {
+  if (box.u_closed) p.x() -= box.u.length() * std::floor((p.x() - box.u.lo) / box.u.length());
+  if (box.v_closed) p.y() -= box.v.length() * std::floor((p.y() - box.v.lo) / box.v.length());
+  return std::any_of(region.faces.begin(), region.faces.end(), [&](const RegionFace& f) {
+    return inside(p, polygon(region.pieces, f.outer)) &&
+           std::none_of(f.holes.begin(), f.holes.end(),
+                        [&](const RegionWire& h) { return inside(p, polygon(region.pieces, h)); });
+  });
+}
 
 TrimRegion trim_region(const RegionBox& box, const std::vector<RegionCut>& cuts) {
   return Region(box, cuts).take();

@@ -59,6 +59,9 @@ struct TrimRegion {
 
 [[nodiscard]] TrimRegion trim_region(const RegionBox& box, const std::vector<RegionCut>& cuts);
 
+/// Whether a point, moved by periods into the rectangle, lies in one of the faces.
+[[nodiscard]] bool region_contains(const SurfaceDomain& box, const TrimRegion& region, Vec2 p);
+
 /// Places for the seams of the closed directions, to be tried with trim_region: the start of a line that
 /// winds around the direction, the middles of the gaps between lines that do not, the present place.
 [[nodiscard]] std::array<std::vector<double>, 2> seam_candidates(const SurfaceDomain& box,

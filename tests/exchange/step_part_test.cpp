@@ -27,36 +27,12 @@
 #include "kernel/geometry/curvature.hpp"
 #include "kernel/geometry/project.hpp"
 #include "tests/exchange/joints.hpp"
+#include "tests/exchange/made_parts.hpp"
 #include "tests/exchange/scratch_folder.hpp"
 #include "tests/support/for_all.hpp"
 
 namespace blendwright::test {
 namespace {
-
-StepPart part_of(const TopoDS_Shape& shape, LengthUnit unit = LengthUnit::millimetre) {
-  const ScratchFolder folder;
-  {
-    const detail::ExchangeSession session(LengthUnit::millimetre);
-    STEPControl_Writer writer;
-    // Without pcurves, as CAD systems write: with them OCCT 7.6.3 reads a drilled sphere back as its
-    // complement.
-    Interface_Static::SetIVal("write.surfacecurve.mode", 0);
-    writer.Transfer(shape, STEPControl_AsIs);
-    if (writer.Write((folder / "part.step").c_str()) != IFSelect_RetDone)
-      throw std::runtime_error("no STEP file");
-  }
-  return StepPart::read(folder / "part.step", unit);
-}
-
-gp_Ax2 z_axis(double x, double y, double z) { return {gp_Pnt(x, y, z), gp::DZ()}; }
-
-/// A box 20 x 20 x 4 with a hole of radius 3 in the middle and a post of radius 2 on one corner.
-TopoDS_Shape plate() {
-  const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(-10, -10, 0), gp_Pnt(10, 10, 4)).Shape();
-  const TopoDS_Shape drilled =
-      BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeCylinder(z_axis(0, 0, -1), 3.0, 6.0).Shape()).Shape();
-  return BRepAlgoAPI_Fuse(drilled, BRepPrimAPI_MakeCylinder(z_axis(7, 7, 2), 2.0, 8.0).Shape()).Shape();
-}
 
 /// A cylinder of radius 5, height 12, whose wall is two faces of half a turn each.
 TopoDS_Shape halved_cylinder(const gp_Trsf& place = {}) {
