@@ -17,6 +17,13 @@ std::vector<OutputFormat> formats_named(const std::vector<std::string>& names) {
   return formats;
 }
 
+/// The time behind the last line, or below it where it would not fit.
+std::string with_seconds(std::string text, double seconds) {
+  const std::string time = number_text(seconds, 2) + " s\n";
+  const std::size_t start = text.rfind('\n') + 1;  // 0 when there is one line
+  return text + (text.size() - start + 3 + time.size() <= 81 ? "   " : "\n  ") + time;
+}
+
 }  // namespace
 
 int blend(const BlendCommand& command, const Console& console) {
@@ -27,18 +34,19 @@ int blend(const BlendCommand& command, const Console& console) {
     JobSpec job = read_job_file(command.job);
     if (!command.formats.empty()) job.output.formats = formats_named(command.formats);
     JobResult result = run_job(job, run.progress());
-    const JobOutputs outputs = write_outputs(result, {command.folder, command.force}, run.progress());
+    const JobOutputs outputs =
+        write_outputs(result, {.folder = command.folder, .overwrite = command.force, .times = command.times},
+                      run.progress());
     run.clear();
     if (!command.quiet) {
       for (const std::string& w : result.warnings) console.warn(w);
       for (const std::string& n : outputs.notes) console.err() << n << '\n';
     }
     if (command.json) {
-      console.out() << report_json(result, &outputs, false);
+      console.out() << report_json(result, &outputs, command.times);
     } else if (!command.quiet) {
       console.out() << run_table(result, &outputs, shown_name(command.job))
-                    << written_files(outputs, job.output.step_schema) << "   "
-                    << number_text(run.seconds(), 2) << " s\n";
+                    << with_seconds(written_files(outputs, job.output.step_schema), run.seconds());
     }
     return verified(result, &outputs) ? exit_done : exit_not_verified;
   });

@@ -3,10 +3,25 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernel/base/number_text.hpp"
 #include "kernel/geometry/curvature.hpp"
 
 namespace blendwright {
 namespace {
+
+std::string shape_note(const BlendResult& blend) {
+  const OdeBlend& surface = blend.blend.surface;
+  const BlendShape& shape = surface.shape();
+  std::string text = blend.entry.name + ": " + name(shape.mode) + " mode";
+  if (shape.frame != BlendFrame::global) text += std::string(", ") + name(shape.frame) + " frame";
+  if (surface.order() == 6)
+    return text + ", " + name(shape.family) + " with tension " + number_text(shape.tension);
+  if (shape.repeated_root) return text + ", q = " + number_text(*shape.repeated_root);
+  for (std::size_t x = 0; x < (shape.isotropic() ? 1u : 3u); ++x)
+    text += std::string(", (b, c, d) = (") + number_text(shape.ode[x].b) + ", " +
+            number_text(shape.ode[x].c) + ", " + number_text(shape.ode[x].d) + ")";
+  return text;
+}
 
 /// Piecewise linear interpolation of a seam's samples at v.
 double sample(const std::vector<double>& vs, const std::vector<double>& values, double v) {
@@ -52,6 +67,7 @@ TriMesh blend_mesh(const BlendResult& blend, LengthUnit unit) {
   constexpr int across = 32, along = 192;
   TriMesh mesh = tessellate(blend.fit.surface, across, along);
   mesh.name = blend.entry.name;
+  mesh.note = shape_note(blend);
   const std::size_t n = mesh.points.size();
   const std::vector<double> us = column(mesh, "u").values, vs = column(mesh, "v").values;
   std::vector<Column> errors = error_columns(n, unit);
@@ -82,6 +98,7 @@ std::array<PolyLine, 2> trimline_lines(const BlendResult& blend, LengthUnit unit
     constexpr int steps = 512;
     PolyLine l;
     l.name = blend.entry.name + (side == 0 ? " from" : " to");
+    l.note = shape_note(blend);
     l.closed = domain.v_closed;
     const int count = domain.v_closed ? steps : steps + 1;
     l.columns = {{"v", "", 1, {}}};
@@ -111,6 +128,12 @@ void add_seam_errors(TriMesh& mesh, const std::vector<PolyLine>& lines, LengthUn
       }
   }
   mesh.columns.insert(mesh.columns.end(), errors.begin(), errors.end());
+}
+
+std::string shape_note(const JobResult& result) {
+  std::string text;
+  for (const BlendResult& blend : result.blends) text += (text.empty() ? "" : "; ") + shape_note(blend);
+  return text;
 }
 
 Assembly assembly_of(const JobResult& result) {

@@ -21,6 +21,10 @@ namespace blendwright {
 /// place of the given lines.
 void add_seam_errors(TriMesh& mesh, const std::vector<PolyLine>& lines, LengthUnit unit);
 
+/// How each blend was generated, in one line: "fillet: chord mode, tension1 with tension 2"; recorded in
+/// every output.
+[[nodiscard]] std::string shape_note(const JobResult& result);
+
 /// The result as patches to be assembled; one patch per primary that is used, cut at all its trimlines.
 [[nodiscard]] Assembly assembly_of(const JobResult& result);
 

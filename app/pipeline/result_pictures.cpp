@@ -60,6 +60,8 @@ Picture error_picture(const JobResult& result, const std::vector<TriMesh>& blend
   Picture picture;
   picture.title = result.job.name + ": largest gap " + scientific_text(gap) + " " + unit +
                   ", largest angle " + scientific_text(angle) + " deg";
+  if (result.blends.size() == 1)
+    picture.title += std::string(" (") + name(result.blends[0].entry.shape.mode) + " mode)";
   picture.column = "gap";
   picture.bar_title = "gap (" + unit + ")";
   picture.logarithmic = true;

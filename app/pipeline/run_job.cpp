@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/pipeline/boundary_strip.hpp"
 #include "app/pipeline/build_primaries.hpp"
 #include "kernel/base/number_text.hpp"
 
@@ -68,11 +69,15 @@ Blend build_literal(const BlendEntry& entry, const JobSpec& job, std::array<std:
   return make_literal_blend(ends[0], ends[1], entry.shape, std::move(lines));
 }
 
-/// Builder errors name a side as "sides/0/..."; a job says "from" and "to".
+/// Builder errors name a side as "sides/0/..." and its law as "factor"; a job says "from" and "to", and
+/// "magnitude/factor".
 std::string job_where(std::string where) {
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string index = "sides/" + std::to_string(i);
     if (where.rfind(index, 0) == 0) where = side_names[i] + where.substr(index.size());
+    const std::string factor = std::string(side_names[i]) + "/factor";
+    if (where.rfind(factor, 0) == 0)
+      where = std::string(side_names[i]) + "/magnitude" + where.substr(factor.size() - 7);
   }
   return where;
 }
@@ -126,6 +131,18 @@ bool literal_keeps_left(const Trimline& line, const EndCondition& end, std::size
   return (side == 0) == (out < 0.0);
 }
 
+/// A primary without a blend is in no output: that is hardly meant.
+std::vector<std::string> unused_primaries(const JobSpec& job) {
+  std::vector<std::string> warnings;
+  for (const PrimaryEntry& p : job.primaries) {
+    const bool used = std::any_of(job.blends.begin(), job.blends.end(), [&](const BlendEntry& b) {
+      return b.sides[0].primary == p.name || b.sides[1].primary == p.name;
+    });
+    if (!used) warnings.push_back("/primaries/" + p.name + ": is used by no blend and will not be written");
+  }
+  return warnings;
+}
+
 BlendFit fit(const BlendEntry& entry, const OdeBlend& blend, const JobSpec& job,
              const Progress& progress) try {
   return fit_blend(blend, fit_options(job.tolerance), Progress{.stop = progress.stop});
@@ -147,19 +164,19 @@ BlendFitOptions fit_options(const Tolerance& tolerance) {
 
 BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
   const auto seam = [&](std::size_t i) {
-    Seam s{result.entry.name + "/" + side_names[i],
-           surface,
-           static_cast<int>(i),
-           result.primaries[i],
-           std::nullopt,
-           true};
+    const int side = static_cast<int>(i);
+    const EndCondition& end = result.blend.surface.end(side);
+    Seam s{result.entry.name + "/" + side_names[i], surface, side, result.primaries[i], std::nullopt, true};
     const auto& line = result.blend.trimlines[i];
-    if (!line) return s;
-    s.pcurve = line->pcurve();
-    if (result.blend.tangents) {
-      s.kept_left = result.blend.tangents->kept_left[i];
+    if (line) {
+      s.pcurve = line->pcurve();
+      s.kept_left =
+          result.blend.tangents ? result.blend.tangents->kept_left[i] : literal_keeps_left(*line, end, i);
     } else {
-      s.kept_left = literal_keeps_left(*line, result.blend.surface.end(static_cast<int>(i)), i);
+      const BoundaryStrip strip(end, side);
+      s.primary = strip;
+      s.pcurve = strip.line();
+      s.kept_left = i == 0;  // n x C' = (T x C') x C' points towards -T
     }
     return s;
   };
@@ -169,6 +186,7 @@ BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
 JobResult run_job(const JobSpec& job, const Progress& progress) {
   JobResult result;
   result.job = job;
+  result.warnings = unused_primaries(job);
   StopWatch watch;
   progress.at(0.0, "building the primaries");
   const std::vector<BuiltPrimary> primaries = build_primaries(job);

@@ -4,8 +4,10 @@
 #include <chrono>
 
 #include "app/json/job_reader.hpp"
+#include "app/pipeline/output_plan.hpp"
 #include "app/pipeline/result_meshes.hpp"
 #include "app/pipeline/result_pictures.hpp"
+#include "kernel/base/number_text.hpp"
 #include "kernel/base/text_file.hpp"
 #include "kernel/brep/shape_mesh.hpp"
 #include "kernel/exchange/mesh_files.hpp"
@@ -14,60 +16,6 @@ namespace blendwright {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool wants(const JobResult& result, OutputFormat format) {
-  const auto& formats = result.job.output.formats;
-  return std::find(formats.begin(), formats.end(), format) != formats.end();
-}
-
-/// The names of everything that will be written, so that nothing is overwritten by surprise.
-struct Plan {
-  fs::path step, picture, plots, stl, obj, report;
-  std::vector<fs::path> blend_meshes, primary_meshes, trimlines;
-  [[nodiscard]] std::vector<fs::path> all() const {
-    std::vector<fs::path> files{step, picture, plots, stl, obj, report};
-    for (const auto* list : {&blend_meshes, &primary_meshes, &trimlines})
-      files.insert(files.end(), list->begin(), list->end());
-    std::erase(files, fs::path());
-    return files;
-  }
-};
-
-Plan plan_files(const JobResult& result, const Assembly& assembly, const fs::path& folder) {
-  const std::string stem = result.job.name;
-  Plan plan;
-  plan.report = folder / (stem + ".report.json");
-  if (wants(result, OutputFormat::step)) plan.step = folder / (stem + ".step");
-  if (wants(result, OutputFormat::png)) {
-    plan.picture = folder / (stem + ".png");
-    plan.plots = folder / (stem + ".errors.png");
-  }
-  if (wants(result, OutputFormat::stl)) plan.stl = folder / (stem + ".stl");
-  if (wants(result, OutputFormat::obj)) plan.obj = folder / (stem + ".obj");
-  if (wants(result, OutputFormat::vtp)) {
-    for (const BlendPatch& b : assembly.blends) {
-      plan.blend_meshes.push_back(folder / (stem + "." + b.name + ".vtp"));
-      plan.trimlines.push_back(folder / (stem + "." + b.name + ".trimlines.vtp"));
-    }
-    for (const PrimaryPatch& p : assembly.primaries)
-      plan.primary_meshes.push_back(folder / (stem + "." + p.name + ".vtp"));
-  }
-  return plan;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw IoError(folder.string() + ": cannot be made a folder (" +
-                  (error ? error.message() : "it is a file") + "); choose another output folder");
-}
-
-void refuse_existing(const Plan& plan) {
-  for (const fs::path& file : plan.all())
-    if (fs::exists(file))
-      throw IoError(file.string() + ": already exists; use --force to replace it or another folder");
-}
 
 /// Verifies the blend faces of the STEP file that was just written.
 void verify_step(JobResult& result, const StepContent& content) {
@@ -107,7 +55,7 @@ TriMesh joined_mesh(const std::vector<TriMesh>& faces, const std::string& wanted
   return joined;
 }
 
-Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shape& shape) {
+Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shape* shape) {
   Meshes m;
   double size = 0.0;
   for (const BlendResult& b : result.blends) {
@@ -116,7 +64,10 @@ Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shap
     for (const Vec3& p : m.blends.back().points)
       size = std::max(size, (p - m.blends.back().points[0]).norm());
   }
-  m.all = tessellate(shape, 5e-4 * size, degrees(6.0));
+  m.all = shape ? tessellate(*shape, 5e-4 * size, degrees(6.0)) : m.blends;
+  for (TriMesh& mesh : m.all)
+    for (const TriMesh& blend : m.blends)
+      if (blend.name == mesh.name) mesh.note = blend.note;
   for (const PrimaryPatch& patch : assembly.primaries) {
     std::vector<PolyLine> lines;
     for (const PrimaryCut& cut : patch.cuts)
@@ -127,46 +78,83 @@ Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shap
   return m;
 }
 
-void write_pictures(const JobResult& result, const Plan& plan, const Meshes& meshes, JobOutputs& outputs) {
+void write_pictures(const JobResult& result, const OutputPlan& plan, const Meshes& meshes,
+                    const StagingFolder& staging, JobOutputs& outputs) {
   const Display display;
   if (!display.available()) {
     outputs.notes.push_back("pictures skipped: " + display.reason());
     return;
   }
-  write_picture(plan.picture, error_picture(result, meshes.blends, meshes.primaries, meshes.lines), display);
-  write_plots(plan.plots, error_plots(result), display);
+  write_picture(staging.of(plan.picture),
+                error_picture(result, meshes.blends, meshes.primaries, meshes.lines), display);
+  write_plots(staging.of(plan.plots), error_plots(result), display);
   for (const fs::path& file : {plan.picture, plan.plots}) outputs.files.push_back({file, "png", 0});
 }
 
-void write_meshes(const JobResult& result, const Plan& plan, const Meshes& meshes, JobOutputs& outputs) {
+void write_meshes(const JobResult& result, const OutputPlan& plan, const Meshes& meshes,
+                  const StagingFolder& staging, JobOutputs& outputs) {
   const auto wrote = [&](const fs::path& file, const char* kind) {
     outputs.files.push_back({file, kind, 0});
   };
   if (wants(result, OutputFormat::vtp)) {
     for (std::size_t i = 0; i < plan.blend_meshes.size(); ++i) {
-      write_vtp(plan.blend_meshes[i], meshes.blends[i]);
+      write_vtp(staging.of(plan.blend_meshes[i]), meshes.blends[i]);
       wrote(plan.blend_meshes[i], "vtp");
-      write_vtp(plan.trimlines[i], std::span(meshes.lines).subspan(2 * i, 2));
+      write_vtp(staging.of(plan.trimlines[i]), std::span(meshes.lines).subspan(2 * i, 2));
       wrote(plan.trimlines[i], "vtp");
     }
     for (std::size_t i = 0; i < plan.primary_meshes.size(); ++i) {
       if (meshes.primaries[i].triangles.empty()) {
-        outputs.notes.push_back(plan.primary_meshes[i].filename().string() +
-                                ": not written, the trimline leaves nothing of this primary");
+        outputs.notes.push_back(plan.primary_meshes[i].filename().string() + ": not written, " +
+                                (outputs.not_joined.empty() ? "the trimline leaves nothing of this primary"
+                                                            : "the faces could not be joined"));
         continue;
       }
-      write_vtp(plan.primary_meshes[i], meshes.primaries[i]);
+      write_vtp(staging.of(plan.primary_meshes[i]), meshes.primaries[i]);
       wrote(plan.primary_meshes[i], "vtp");
     }
   }
   if (!plan.stl.empty()) {
-    write_stl(plan.stl, meshes.all);
+    write_stl(staging.of(plan.stl), meshes.all);
     wrote(plan.stl, "stl");
   }
   if (!plan.obj.empty()) {
-    write_obj(plan.obj, meshes.all);
+    write_obj(staging.of(plan.obj), meshes.all);
     wrote(plan.obj, "obj");
   }
+}
+
+/// An error that names a file of the staging folder names its final place instead.
+IoError with_final_names(const IoError& error, const fs::path& staging, const fs::path& folder) {
+  std::string text = error.what();
+  for (std::size_t at = 0; (at = text.find(staging.string(), at)) != std::string::npos;)
+    text.replace(at, staging.string().size(), folder.string());
+  return IoError(text);
+}
+
+/// The joined faces; empty, with the reason in the outputs, when they do not fit together.
+std::optional<AssemblyResult> join(JobResult& result, const Assembly& assembly, JobOutputs& outputs) {
+  try {
+    AssemblyResult joined = assemble(assembly, result.job.tolerance.position);
+    result.warnings.insert(result.warnings.end(), joined.warnings.begin(), joined.warnings.end());
+    return joined;
+  } catch (const GeometryError& e) {
+    outputs.not_joined = e.what();
+    return std::nullopt;
+  }
+}
+
+void write_joined(JobResult& result, const OutputPlan& plan, const Shape& shape, const StagingFolder& staging,
+                  const Progress& progress, JobOutputs& outputs) {
+  if (plan.step.empty()) return;
+  progress.at(0.6, "writing STEP");
+  const fs::path staged = staging.of(plan.step);
+  write_step(staged, shape,
+             {result.job.output.step_schema, result.job.unit, result.job.name, shape_note(result)});
+  progress.at(0.7, "verifying the STEP file");
+  outputs.step = read_step(staged, result.job.unit);
+  verify_step(result, *outputs.step);
+  outputs.files.push_back({plan.step, "step", 0});
 }
 
 }  // namespace
@@ -175,35 +163,53 @@ JobOutputs write_outputs(JobResult& result, const WriteOptions& options, const P
   const auto start = std::chrono::steady_clock::now();
   JobOutputs outputs;
   const Assembly assembly = assembly_of(result);
-  const Plan plan = plan_files(result, assembly, options.folder);
+  const OutputPlan plan = plan_outputs(result, assembly, options.folder);
   if (!options.overwrite) refuse_existing(plan);
-  make_folder(options.folder);
-
-  progress.at(0.5, "joining faces");
-  const AssemblyResult joined = assemble(assembly, result.job.tolerance.position);
-  result.warnings.insert(result.warnings.end(), joined.warnings.begin(), joined.warnings.end());
-  if (!plan.step.empty()) {
-    progress.at(0.6, "writing STEP");
-    write_step(plan.step, joined.shape, {result.job.output.step_schema, result.job.unit, result.job.name});
-    outputs.files.push_back({plan.step, "step", 0});
-    progress.at(0.7, "verifying the STEP file");
-    outputs.step = read_step(plan.step, result.job.unit);
-    verify_step(result, *outputs.step);
+  StagingFolder staging(options.folder);
+  try {
+    progress.at(0.5, "joining faces");
+    const std::optional<AssemblyResult> joined = join(result, assembly, outputs);
+    if (joined) write_joined(result, plan, joined->shape, staging, progress, outputs);
+    if (plan.all().size() > 1 + (plan.step.empty() ? 0u : 1u)) {
+      progress.at(0.8, "writing meshes and pictures");
+      const Meshes meshes = make_meshes(result, assembly, joined ? &joined->shape : nullptr);
+      write_meshes(result, plan, meshes, staging, outputs);
+      if (!plan.picture.empty()) write_pictures(result, plan, meshes, staging, outputs);
+    }
+    result.times.push_back(
+        {"writing", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    for (WrittenFile& file : outputs.files)
+      file.bytes = static_cast<std::size_t>(fs::file_size(staging.of(file.path)));
+    write_text_file(staging.of(plan.report), report_json(result, &outputs, options.times));
+    outputs.files.push_back(
+        {plan.report, "report", static_cast<std::size_t>(fs::file_size(staging.of(plan.report)))});
+    std::vector<fs::path> files;
+    for (const WrittenFile& file : outputs.files) files.push_back(file.path);
+    staging.publish(files);
+  } catch (const IoError& e) {
+    throw with_final_names(e, staging.path(), options.folder);
   }
-  if (plan.all().size() > 1 + outputs.files.size()) {
-    progress.at(0.8, "writing meshes and pictures");
-    const Meshes meshes = make_meshes(result, assembly, joined.shape);
-    write_meshes(result, plan, meshes, outputs);
-    if (!plan.picture.empty()) write_pictures(result, plan, meshes, outputs);
-  }
-  result.times.push_back(
-      {"writing", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
-  outputs.files.push_back({plan.report, "report", 0});
-  for (WrittenFile& file : outputs.files)
-    if (fs::exists(file.path)) file.bytes = static_cast<std::size_t>(fs::file_size(file.path));
-  write_text_file(plan.report, report_json(result, &outputs, false));
-  outputs.files.back().bytes = static_cast<std::size_t>(fs::file_size(plan.report));
   return outputs;
+}
+
+std::vector<std::string> shape_problems(const JobResult& result, const JobOutputs& outputs) {
+  std::vector<std::string> problems;
+  if (!outputs.not_joined.empty())
+    problems.push_back("no joined shape and no STEP file: " + outputs.not_joined);
+  if (!outputs.step) return problems;
+  const ShapeCheck& check = outputs.step->check;
+  const std::string unit = name(result.job.unit);
+  if (!check.valid) problems.push_back("the STEP file's shape is not valid");
+  problems.insert(problems.end(), check.problems.begin(), check.problems.end());
+  if (check.unexpected_free_edges > 0)
+    problems.push_back(std::to_string(check.unexpected_free_edges) +
+                       " trimline edge(s) of the STEP file not shared by two faces");
+  const double allowed =
+      std::max(result.job.tolerance.position, 1e-7);  // 1e-7: what a reader gives everything
+  if (check.largest_tolerance > 1.001 * allowed)
+    problems.push_back("largest tolerance " + scientific_text(check.largest_tolerance) + " " + unit +
+                       " of the STEP file read back exceeds " + scientific_text(allowed) + " " + unit);
+  return problems;
 }
 
 bool verified(const JobResult& result, const JobOutputs* outputs) {
@@ -214,9 +220,7 @@ bool verified(const JobResult& result, const JobOutputs* outputs) {
     for (const Finding& f : judge(blend.stages.back(), asked, result.job.tolerance, result.job.unit))
       if (f.failed) return false;
   }
-  if (!outputs || !outputs->step) return true;
-  const ShapeCheck& check = outputs->step->check;
-  return check.valid && check.unexpected_free_edges == 0;
+  return !outputs || shape_problems(result, *outputs).empty();
 }
 
 }  // namespace blendwright

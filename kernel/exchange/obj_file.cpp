@@ -155,6 +155,7 @@ void write_obj(const std::filesystem::path& file, std::span<const TriMesh> meshe
   std::size_t point = 1, normal = 1;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     require_consistent(meshes[m]);
+    if (!meshes[m].note.empty()) text += "# " + meshes[m].note + '\n';
     text += "g " + group_name(meshes[m].name, m) + '\n';
     append_mesh(text, meshes[m], point, normal);
     point += meshes[m].points.size();

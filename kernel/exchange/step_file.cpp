@@ -1,7 +1,9 @@
 #include "kernel/exchange/step_file.hpp"
 
 #include <APIHeaderSection_MakeHeader.hxx>
+#include <HeaderSection_FileDescription.hxx>
 #include <HeaderSection_FileName.hxx>
+#include <Interface_HArray1OfHAsciiString.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
@@ -69,12 +71,22 @@ void fill(const detail::StepDocument& document, const Shape::Impl& shape, const 
   }
 }
 
-void set_header(STEPCAFControl_Writer& writer, const std::string& file_name) {
+handle<Interface_HArray1OfHAsciiString> one_text(const std::string& text) {
+  const handle<Interface_HArray1OfHAsciiString> texts = new Interface_HArray1OfHAsciiString(1, 1);
+  texts->SetValue(1, ascii(text));
+  return texts;
+}
+
+void set_header(STEPCAFControl_Writer& writer, const std::string& file_name, const std::string& note) {
   const APIHeaderSection_MakeHeader header(writer.ChangeWriter().Model());
   handle<HeaderSection_FileName> name = header.FnValue();
   name->SetName(ascii(file_name));
   name->SetTimeStamp(ascii(time_stamp()));
   name->SetOriginatingSystem(ascii("blendwright"));
+  for (const auto& set : {&HeaderSection_FileName::SetAuthor, &HeaderSection_FileName::SetOrganization})
+    ((*name).*set)(one_text(""));  // the CAD kernel would put its own
+  if (note.empty()) return;
+  header.FdValue()->SetDescription(one_text(note));
 }
 
 /// Throws IoError unless the file is there whole: a full disk is not always noticed by the writer.
@@ -112,7 +124,7 @@ void write_step(const std::filesystem::path& file, const Shape& shape, const Ste
     STEPCAFControl_Writer writer;
     if (!writer.Transfer(document.document(), STEPControl_AsIs))
       throw IoError(file.string() + ": the CAD kernel cannot translate the shape to STEP");
-    set_header(writer, file.filename().string());
+    set_header(writer, file.filename().string(), options.note);
     if (writer.Write(unfinished.path().c_str()) != IFSelect_RetDone)
       throw IoError(file.string() + ": cannot be written; check that the folder exists and is writable");
   });

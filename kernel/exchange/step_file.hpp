@@ -15,6 +15,7 @@ struct StepOptions {
   StepSchema schema = StepSchema::AP242;
   LengthUnit unit = LengthUnit::millimetre;
   std::string product = "blend";
+  std::string note{};  ///< how it was made: the header's description
 };
 
 /// Writes to a temporary file in the same folder and renames; the time stamp comes from SOURCE_DATE_EPOCH

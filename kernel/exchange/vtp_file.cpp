@@ -28,6 +28,7 @@ namespace blendwright {
 namespace {
 
 constexpr const char* name_key = "name";      // of the mesh (field data) or of each line (cell data)
+constexpr const char* note_key = "note";      // of the file (field data): how it was made
 constexpr const char* closed_key = "closed";  // of each line
 constexpr const char* normals_key = "Normals";
 
@@ -124,6 +125,15 @@ std::vector<vtkIdType> all_points(vtkPolyData& data) {
   return ids;
 }
 
+/// Field data "note": how the geometry was made.
+void add_note(vtkPolyData& data, const std::string& note) {
+  if (note.empty()) return;
+  vtkNew<vtkStringArray> text;
+  text->SetName(note_key);
+  text->InsertNextValue(note);
+  data.GetFieldData()->AddArray(text);
+}
+
 }  // namespace
 
 void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
@@ -155,6 +165,7 @@ void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
   name->SetName(name_key);
   name->InsertNextValue(mesh.name);
   data->GetFieldData()->AddArray(name);
+  add_note(*data, mesh.note);
   write(file, *data, messages);
 }
 
@@ -184,6 +195,7 @@ void write_vtp(const std::filesystem::path& file, std::span<const PolyLine> line
     data->GetPointData()->AddArray(array);
   data->GetCellData()->AddArray(names);
   data->GetCellData()->AddArray(closed);
+  if (!lines.empty()) add_note(*data, lines.front().note);
   write(file, *data, messages);
 }
 

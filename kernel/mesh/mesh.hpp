@@ -23,6 +23,7 @@ struct TriMesh {
   std::vector<Vec3> normals;  ///< empty or one per point
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Column> columns;
+  std::string note{};  ///< how it was made; kept by formats that have a place for it
 };
 
 struct PolyLine {
@@ -30,6 +31,7 @@ struct PolyLine {
   std::vector<Vec3> points;
   bool closed = false;  ///< the last point joins the first
   std::vector<Column> columns;
+  std::string note{};
 };
 
 /// Mesh of a surface's whole domain on an nu x nv grid of cells; closed directions share their seam points,
