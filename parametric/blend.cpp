@@ -4,6 +4,7 @@
 
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
+#include "parametric/trimline/crossing.hpp"
 #include "parametric/trimline/line_point.hpp"
 #include "parametric/trimline/zero_scan.hpp"
 
@@ -12,22 +13,31 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-std::string of_line(std::size_t side) { return "trimline " + std::to_string(side); }
+std::string of_side(std::size_t side) { return side_name(side) + std::string(": "); }
 
 /// Harmless degenerate points become warnings, corners end the attempt.
 void check_degenerate(const Trimline& line, std::size_t side, Warnings& warnings) {
   for (const DegeneratePoint& p : degenerate_points(line)) {
     const bool cusp = p.kind == DegeneratePoint::Kind::cusp;
-    const std::string what = cusp ? " stops (|C'| = 0) " : " passes a pole of its primary (|Su x Sv| = 0) ";
+    const std::string what = cusp ? "the trimline stops (|C'| = 0) "
+                                  : "the trimline passes a pole of its primary (|Su x Sv| = 0) ";
     if (p.harmless()) {
-      warnings.push_back(of_line(side) + what + place(p.v, p.point) +
+      warnings.push_back(of_side(side) + what + place(p.v, p.point) +
                          "; both sides agree, the limit is taken");
       continue;
     }
     const double turn = std::max(p.normal_turn, p.tangent_turn);
-    throw GeometryError(of_line(side) + what + place(p.v, p.point) + " with a corner of " +
+    throw GeometryError(of_side(side) + what + place(p.v, p.point) + " with a corner of " +
                         number_text(Radians(turn).degrees(), 4) + " deg; split the blend there");
   }
+}
+
+void check_crossing(const Trimline& line, std::size_t side) {
+  const auto found = self_crossing(line);
+  if (!found) return;
+  throw GeometryError(of_side(side) + "the trimline crosses or overlaps itself: v = " +
+                      number_text(found->v0, 6) + " and v = " + number_text(found->v1, 6) +
+                      " are one point " + point_text(found->point) + "; it must pass every point once");
 }
 
 void warn_of_stops(const EndCondition& end, std::size_t side, Warnings& warnings) {
@@ -37,7 +47,7 @@ void warn_of_stops(const EndCondition& end, std::size_t side, Warnings& warnings
   std::vector<double> values;
   for (const double v : zero_scan_places(end.domain)) values.push_back(speed(v));
   for (const double v : zeros(end.domain, values, speed))
-    warnings.push_back("side " + std::to_string(side) + ": the boundary curve stops (|C'| = 0) " +
+    warnings.push_back(of_side(side) + "the boundary curve stops (|C'| = 0) " +
                        place(v, derivative(end.series(v).C, 0)) +
                        "; the blend has no tangent plane there unless T makes one");
 }
@@ -55,8 +65,7 @@ void warn_of_small_angles(const EndCondition& end, std::size_t side, Warnings& w
     at = v;
   }
   if (least < 0.1)
-    warnings.push_back("side " + std::to_string(side) +
-                       ": the cross tangent is nearly parallel to the trimline " +
+    warnings.push_back(of_side(side) + "the cross tangent is nearly parallel to the trimline " +
                        place(at, derivative(end.series(at).C, 0)) + ", sine " + number_text(least, 3) +
                        "; below 0.1 the tangent plane is ill defined");
 }
@@ -88,6 +97,8 @@ Blend make_blend(const Trimline& line0, const Trimline& line1, const BlendSpec& 
   Warnings warnings;
   check_degenerate(line0, 0, warnings);
   check_degenerate(line1, 1, warnings);
+  check_crossing(line0, 0);
+  check_crossing(line1, 1);
   Correspondence lines = corresponded(line0, line1, spec.correspondence);
   CrossTangents tangents = cross_tangents(lines, spec.sides, tolerance);
   OdeBlend surface = surface_of(tangents.ends[0], tangents.ends[1], spec.shape);

@@ -30,9 +30,10 @@ struct Blend {
   std::vector<std::string> warnings;
 };
 
-/// Throws GeometryError (also at a trimline's corner: a degenerate point whose normal or tangent limits
-/// differ by more than 1e-6 rad), InputError (where: "sides/0/...", "correspondence/...", "shape/..."),
-/// ResonanceError.
+/// Throws GeometryError (its message begins with "from: " or "to: " when it is about one side; also when a
+/// trimline crosses or overlaps itself, and at a trimline's corner: a degenerate point whose normal or
+/// tangent limits differ by more than 1e-6 rad), InputError (where: "sides/0/...", "correspondence/...",
+/// "shape/..."), ResonanceError.
 [[nodiscard]] Blend make_blend(const Trimline& line0, const Trimline& line1, const BlendSpec& spec,
                                double tolerance);
 /// From boundary data typed as formulas. `lines` (on the same v) only serve the trimmed primaries and the

@@ -32,7 +32,7 @@ BuiltTrimline from_edges(const TrimlineSpec& spec, const BuiltPrimary& primary) 
   const std::size_t edge = primary.part->select(spec.edge, primary.face);
   const EdgeTrimline e =
       primary.part->trimline(primary.face, edge, spec.kind == TrimlineSpec::Kind::edge_chain);
-  return {Trimline(placed(e.surface, primary.placement), e.pcurve),
+  return {Trimline(placed(e.surface, primary.placement), e.pcurve, primary.part->tolerance()),
           e.kept_left ? SideSpec::Keep::left : SideSpec::Keep::right, e.edge_deviation};
 }
 

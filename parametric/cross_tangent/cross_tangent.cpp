@@ -92,7 +92,7 @@ void check_sides(const Sides& sides, bool closed) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-std::string on_line(std::size_t side) { return "trimline " + std::to_string(side) + ": "; }
+std::string on_line(std::size_t side) { return std::string(side_name(side)) + ": "; }
 
 GeometryError zero_tangent(std::size_t side, const DegeneratePoint& p) {
   const std::string what = p.kind == DegeneratePoint::Kind::cusp

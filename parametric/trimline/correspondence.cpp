@@ -184,11 +184,32 @@ double twist(const Trimline& line0, const Trimline& line1) {
   return std::asin(std::min(worst, 1.0));
 }
 
+/// What joins the ends of an open line whose ends meet; empty for other lines.
+std::string meeting_ends(const Trimline& line, std::size_t side) {
+  const Interval range = line.domain().v;
+  if (line.domain().closed) return "";
+  const LinePoint first = line_point(line, range.lo), last = line_point(line, range.hi);
+  double size = 0.0;
+  for (int i = 1; i < 8; ++i) size = std::max(size, (line_point(line, range.at(i / 8.0)).C - first.C).norm());
+  if (!((last.C - first.C).norm() <= 1e-6 * size)) return "";
+  const Radians corner(std::atan2(first.C1.cross(last.C1).norm(), first.C1.dot(last.C1)));
+  const std::string meets =
+      std::string(". The ends of \"") + side_name(side) + "\" meet at " + point_text(first.C);
+  if (!(first.C1.norm() > 0.0 && last.C1.norm() > 0.0))
+    return meets + ", but the line stops there (|C'| = 0), so that it cannot be closed smoothly";
+  if (corner.value <= 1e-6) return meets + " without a corner: it can be given as closed";
+  return meets + ", but with a corner of " + number_text(corner.degrees(), 4) +
+         " deg at this seam, so that it cannot be closed smoothly: round the corner, or make both trimlines "
+         "open";
+}
+
 void check(const Trimline& line0, const Trimline& line1, const CorrespondenceSpec& spec) {
   const auto kind = [](const Trimline& line) { return line.domain().closed ? "closed" : "open"; };
   if (line0.domain().closed != line1.domain().closed)
-    throw GeometryError(std::string("trimline 0 is ") + kind(line0) + " and trimline 1 is " + kind(line1) +
-                        "; both must be closed or both open");
+    throw GeometryError(std::string("the trimline of \"") + side_name(0) + "\" is " + kind(line0) +
+                        " and that of \"" + side_name(1) + "\" is " + kind(line1) +
+                        "; both must be closed or both open" + meeting_ends(line0, 0) +
+                        meeting_ends(line1, 1));
   if (spec.seam_offset && !std::isfinite(*spec.seam_offset))
     throw InputError("seam_offset", "is not a finite number, must be a fraction of the period");
   if (spec.seam_offset && !line0.domain().closed)

@@ -27,9 +27,14 @@ LinePoint line_point(const Trimline& line, double v) {
   return x;
 }
 
+std::string point_text(const Vec3& point) {
+  std::string text("(");
+  text.append(number_text(point[0], 6)).append(", ").append(number_text(point[1], 6));
+  return text.append(", ").append(number_text(point[2], 6)).append(")");
+}
+
 std::string place(double v, const Vec3& point) {
-  return "at v = " + number_text(v, 6) + " (" + number_text(point[0], 6) + ", " + number_text(point[1], 6) +
-         ", " + number_text(point[2], 6) + ")";
+  return "at v = " + number_text(v, 6) + " " + point_text(point);
 }
 
 }  // namespace blendwright

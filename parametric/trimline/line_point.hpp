@@ -2,6 +2,7 @@
 // A trimline's point to second order and the primary's normal there: what sampling needs, at half the cost of
 // the exact third-order jet. Private to this module.
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <string>
 
 #include "parametric/trimline/trimline.hpp"
@@ -22,6 +23,11 @@ struct Wrapped {
 };
 [[nodiscard]] Wrapped wrapped(const CurveDomain& domain, double v);
 
+/// What a job calls the sides.
+[[nodiscard]] inline const char* side_name(std::size_t side) { return side == 0 ? "from" : "to"; }
+
+/// "(1, 0, 2)"
+[[nodiscard]] std::string point_text(const Vec3& point);
 /// "at v = 0.25 (1, 0, 2)"
 [[nodiscard]] std::string place(double v, const Vec3& point);
 

@@ -15,7 +15,15 @@ constexpr int check_samples = 256;
 /// How far x lies beyond the interval, relative to its length; NaN stays NaN.
 double excess(const Interval& i, double x) { return std::max(i.lo - x, x - i.hi) / i.length(); }
 
-void check_inside(const Surface& primary, const CurveDomain& domain, const Curve2& pcurve) {
+/// How far in space a step `over` beyond the domain leads.
+double reach_beyond(const Surface& primary, const Vec2& p, int axis, double over) {
+  const SurfaceDomain box = primary.domain();
+  const SurfaceJet s =
+      primary.jet({box.u_closed ? p[0] : box.u.clamp(p[0]), box.v_closed ? p[1] : box.v.clamp(p[1])});
+  return over * (axis == 0 ? s.Su : s.Sv).norm();
+}
+
+void check_inside(const Surface& primary, const CurveDomain& domain, const Curve2& pcurve, double slack) {
   const SurfaceDomain box = primary.domain();
   for (int i = 0; i <= check_samples; ++i) {
     const double v = domain.v.at(static_cast<double>(i) / check_samples);
@@ -24,8 +32,9 @@ void check_inside(const Surface& primary, const CurveDomain& domain, const Curve
       const Interval& range = axis == 0 ? box.u : box.v;
       const bool closed = axis == 0 ? box.u_closed : box.v_closed;
       if (closed ? std::isfinite(p[axis]) : excess(range, p[axis]) <= 1e-9) continue;
-      const std::string name = axis == 0 ? "u" : "v";
       const double over = std::max(range.lo - p[axis], p[axis] - range.hi);
+      if (slack > 0.0 && reach_beyond(primary, p, axis, over) <= slack) continue;
+      const std::string name = axis == 0 ? "u" : "v";
       throw GeometryError("the trimline leaves its primary " + place(v, primary.point({p[0], p[1]})) +
                           ": the primary's " + name + " = " + number_text(p[axis], 6) + " is " +
                           scientific_text(over) + " beyond [" + number_text(range.lo, 6) + ", " +
@@ -96,12 +105,12 @@ Vec2 turn_of(const Surface& primary, const Curve2& pcurve) {
 Trimline::Trimline(Surface primary, Curve2 pcurve, Checked)
     : primary_(std::move(primary)), pcurve_(std::move(pcurve)), domain_(pcurve_.domain()) {}
 
-Trimline::Trimline(Surface primary, Curve2 pcurve)
+Trimline::Trimline(Surface primary, Curve2 pcurve, double slack)
     : Trimline(std::move(primary), std::move(pcurve), Checked{}) {
   if (!(domain_.v.lo < domain_.v.hi) || !std::isfinite(domain_.v.length()))
     throw GeometryError("the trimline's range [" + number_text(domain_.v.lo) + ", " +
                         number_text(domain_.v.hi) + "] is empty; its start must be below its end");
-  check_inside(primary_, domain_, pcurve_);
+  check_inside(primary_, domain_, pcurve_, slack);
   if (domain_.closed) check_closes(primary_, domain_, pcurve_);
 }
 

@@ -15,9 +15,10 @@ class Trimline {
  public:
   /// The pcurve may run beyond a closed direction of the primary (unrolled), so that it stays continuous.
   /// Throws GeometryError when the curve leaves an open domain of the primary by more than 1e-9 of its length
-  /// (names v, the point and how far), and when a closed pcurve does not close on the primary to 1e-6 of the
-  /// line's size.
-  Trimline(Surface primary, Curve2 pcurve);
+  /// (names v, the point and how far) and by more than `slack` in space, and when a closed pcurve does not
+  /// close on the primary to 1e-6 of the line's size. slack: model units, >= 0; for pcurves that are only as
+  /// good as the tolerance of the part they come from. The line then runs where the primary is continued.
+  Trimline(Surface primary, Curve2 pcurve, double slack = 0.0);
 
   [[nodiscard]] const Surface& primary() const { return primary_; }
   [[nodiscard]] const Curve2& pcurve() const { return pcurve_; }

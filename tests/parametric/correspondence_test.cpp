@@ -58,12 +58,36 @@ double speed_spread(const Trimline& line) {
 TEST(Correspondence, JoinsOnlyClosedWithClosed) {
   const Trimline open = open_line({0, 0, 3}, {1, 0, 3});
   EXPECT_THAT(message_of([&] { (void)correspond(circle(1.0), open, {}); }),
-              HasSubstr("trimline 0 is closed and trimline 1 is open"));
+              HasSubstr("the trimline of \"from\" is closed and that of \"to\" is open"));
   CorrespondenceSpec offset;
   offset.seam_offset = 0.25;
   EXPECT_THROW((void)correspond(open, open_line({0, 0, 4}, {1, 0, 4}), offset), InputError);
   offset.seam_offset = std::nan("");
   EXPECT_THROW((void)correspond(circle(1.0), circle(2.0), offset), InputError);
+}
+
+TEST(Correspondence, SaysWhenAnOpenLineClosesWithACorner) {
+  // A drop: at the ends, v = 0 and v = 2 pi, it leaves along (1, 2) and comes back along (-1, 2).
+  const auto what = [](double lift) {
+    const Curve2 drop = curve<2>(
+        [=](const auto& v) {
+          return std::array{sin(v), 4.0 * sin(0.5 * v) + lift * v};
+        },
+        {0.0, 2.0 * pi});
+    return message_of([&] { (void)correspond(circle(1.0), Trimline(plane(9.0), drop), {}); });
+  };
+  // The angle between (1, 2) and (1, -2).
+  const std::string corner = "The ends of \"to\" meet at (0, 0, 0), but with a corner of 126.9 deg";
+  EXPECT_THAT(what(0.0), HasSubstr(corner));
+  EXPECT_THAT(what(0.1), ::testing::Not(HasSubstr("meet at")));
+  const Trimline round(plane(9.0), curve<2>(
+                                       [](const auto& v) {
+                                         return std::array{cos(v), sin(v)};
+                                       },
+                                       {0.0, 2.0 * pi}));
+  EXPECT_THAT(
+      message_of([&] { (void)correspond(round, circle(1.0), {}); }),
+      HasSubstr("The ends of \"from\" meet at (1, 0, 0) without a corner: it can be given as closed"));
 }
 
 TEST(ArcLength, MakesTheSpeedEven) {

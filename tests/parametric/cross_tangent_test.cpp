@@ -416,7 +416,7 @@ TEST(CrossTangents, RefuseWhatHasNoTangent) {
               IsoDirection::constant_v, 0.0, Interval{-1.0, 1.0});
   const std::string what =
       message_of([&] { (void)tangents(correspond(Trimline(plane(5.0), cusp), above, given), both({})); });
-  EXPECT_THAT(what, HasSubstr("trimline 0: the trimline stops (|C'| = 0) at v = "));
+  EXPECT_THAT(what, HasSubstr("from: the trimline stops (|C'| = 0) at v = "));
   EXPECT_THAT(what, HasSubstr("split the blend there"));
 }
 

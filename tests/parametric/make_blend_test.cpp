@@ -174,7 +174,7 @@ TEST(MakeBlend, WarnsOfHarmlessDegeneratePointsAndRefusesCorners) {
   const Curve2 diagonal = curve<2>([](const auto& v) { return std::array{v, 1.0 * v}; }, {-0.8, 0.9});
   const Blend blend = make_blend(Trimline(folded, diagonal), above, spec, tolerance);
   ASSERT_EQ(blend.warnings.size(), 1u);
-  EXPECT_THAT(blend.warnings[0], HasSubstr("trimline 0 passes a pole of its primary"));
+  EXPECT_THAT(blend.warnings[0], HasSubstr("from: the trimline passes a pole of its primary"));
 
   const Surface cone = formula({"1.2*u*cos(v)", "1.2*u*v*sin(v)", "2*u"}, {0.1, 1.0}, {0.0, 2.0 * pi});
   const Trimline cusp(cone, curve<2>(
@@ -183,7 +183,7 @@ TEST(MakeBlend, WarnsOfHarmlessDegeneratePointsAndRefusesCorners) {
                                 },
                                 {0.0, 2.0 * pi}, true));
   const std::string what = message_of([&] { (void)make_blend(cusp, lower(), spec, tolerance); });
-  EXPECT_THAT(what, HasSubstr("trimline 0 "));
+  EXPECT_THAT(what, HasSubstr("from: the trimline "));
   EXPECT_THAT(what, HasSubstr("at v = 0 (0.36, 0, 0.6) with a corner of"));
   EXPECT_THAT(what, HasSubstr("split the blend there"));
 }
@@ -218,7 +218,7 @@ TEST(MakeLiteralBlend, AcceptsTheIrregularConeWithAWarning) {
   const Blend blend = make_literal_blend(end0, end1, spec_of(Continuity::G1).shape);
   ASSERT_EQ(blend.warnings.size(), 1u);
   EXPECT_THAT(blend.warnings[0],
-              HasSubstr("side 0: the boundary curve stops (|C'| = 0) at v = 0 (0.36, 0, 0.6)"));
+              HasSubstr("from: the boundary curve stops (|C'| = 0) at v = 0 (0.36, 0, 0.6)"));
   EXPECT_FALSE(blend.correspondence);
   EXPECT_LE((blend.surface.jet({1.0, 1.0}).S - derivative(end1.series(1.0).C, 0)).norm(), 1e-13);
 }
@@ -229,7 +229,7 @@ TEST(MakeLiteralBlend, WarnsOfTangentsAlongTheCurve) {
   const EndCondition end1 = literal_end({{"v", "1", "0"}, {"1", "0.2", "0"}, {}}, range, {});
   const Blend blend = make_literal_blend(end0, end1, {});
   ASSERT_EQ(blend.warnings.size(), 1u);
-  EXPECT_THAT(blend.warnings[0], HasSubstr("side 0: the cross tangent is nearly parallel"));
+  EXPECT_THAT(blend.warnings[0], HasSubstr("from: the cross tangent is nearly parallel"));
 }
 
 }  // namespace

@@ -72,6 +72,22 @@ TEST(Trimline, LeavingAnOpenDomainIsAnErrorThatSaysWhereAndHowFar) {
   EXPECT_THROW((void)isoline(s, IsoDirection::constant_u, 0.0, Interval{1.0, 1.0}), GeometryError);
 }
 
+TEST(Trimline, MayLeaveAnOpenDomainByTheSlackOfItsPart) {
+  const Surface s = formula({"100*u", "v", "0.1*v^2"}, {0.0, 1.74}, {-1.0, 1.0});
+  const auto beyond = [&](double over, double slack) {  // in space: the domain ends at x = 174
+    const Curve2 pcurve = curve<2>(
+        [=](const auto& v) {
+          return std::array{1.74 + over / 100.0 + 0.0 * v, v};
+        },
+        {-1.0, 1.0});
+    return message_of([&] { Trimline(s, pcurve, slack); });
+  };
+  EXPECT_EQ(beyond(1.2e-5, 1.3e-5), "no error");
+  EXPECT_THAT(beyond(1.2e-5, 1.1e-5), HasSubstr("the trimline leaves its primary"));
+  EXPECT_THAT(beyond(1.2e-5, 0.0), HasSubstr("the trimline leaves its primary"));
+  EXPECT_THAT(beyond(std::nan(""), 1.0), HasSubstr("the trimline leaves its primary"));
+}
+
 TEST(Trimline, CalledClosedMustClose) {
   const auto spiral = [](double rise) {
     return curve<2>([rise](const auto& v) { return std::array{rise * v, v}; }, {0.0, 2.0 * pi}, true);
