@@ -6,6 +6,7 @@
 #include "app/pipeline/boundary_strip.hpp"
 #include "app/pipeline/build_primaries.hpp"
 #include "kernel/base/number_text.hpp"
+#include "parametric/trimline/crossing.hpp"
 
 namespace blendwright {
 namespace {
@@ -143,6 +144,31 @@ std::vector<std::string> unused_primaries(const JobSpec& job) {
   return warnings;
 }
 
+bool from_step_edge(const BlendSideEntry& side) {
+  using Kind = TrimlineSpec::Kind;
+  return side.trimline && (side.trimline->kind == Kind::edge || side.trimline->kind == Kind::edge_chain);
+}
+
+/// Two trimlines of one primary must not cross: nothing of the primary would stay between them. Lines from
+/// the edges of a part are its own and do not.
+void refuse_crossings(const std::vector<BlendResult>& blends, const BlendResult& added) {
+  for (const BlendResult& other : blends)
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const BlendSideEntry &a = other.entry.sides[i], &b = added.entry.sides[k];
+        if (a.primary != b.primary || a.primary.empty() || from_step_edge(a) || from_step_edge(b)) continue;
+        if (!other.blend.trimlines[i] || !added.blend.trimlines[k]) continue;
+        const auto found = crossing(*other.blend.trimlines[i], *added.blend.trimlines[k]);
+        if (!found) continue;
+        const auto text = [](double x) { return number_text(x, 4); };
+        throw GeometryError("/blends/" + added.entry.name + "/" + side_names[k] +
+                            "/trimline: crosses the trimline /blends/" + other.entry.name + "/" +
+                            side_names[i] + " on primary \"" + a.primary + "\" at v = " + text(found->v1) +
+                            " (" + text(found->point[0]) + ", " + text(found->point[1]) + ", " +
+                            text(found->point[2]) + "); move one of them");
+      }
+}
+
 BlendFit fit(const BlendEntry& entry, const OdeBlend& blend, const JobSpec& job,
              const Progress& progress) try {
   return fit_blend(blend, fit_options(job.tolerance), Progress{.stop = progress.stop});
@@ -208,6 +234,7 @@ JobResult run_job(const JobSpec& job, const Progress& progress) {
     fitting += watch.lap();
     stage("verifying");
     BlendResult r{entry, std::move(blend), std::move(fitted), {}, {}};
+    refuse_crossings(result.blends, r);
     for (std::size_t s = 0; s < 2; ++s)
       if (r.blend.trimlines[s]) r.primaries[s] = r.blend.trimlines[s]->primary();
     r.stages.push_back(verify_blend(under_test(r, r.blend.surface), "formula"));

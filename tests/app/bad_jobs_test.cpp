@@ -100,6 +100,8 @@ constexpr BadJob bad_jobs[] = {
     {"torus-cuts-itself", "/primaries/thin/minor_radius", "must be less than the major_radius 1", 3},
     {"literal-not-closing", "/blends/transition", "boundary data must close with their derivatives", 4},
     {"too-few-points", "/blends/reducer/to/trimline/points", "/trimline/points: has 3, degree 3 needs", 3},
+    {"crossing-trimlines", "/blends/two/to/trimline", "crosses the trimline /blends/one/to on primary", 4},
+    {"self-crossing-trimline", "/blends/foot", "crosses or overlaps itself", 4},
     {"touching-trimlines", "/blends/reducer", "the trimlines touch at v = 0", 4},
     {"trailing-comma", "", "line 4, column 64: a comma before '}' or ']' is one too many", 3},
     {"trailing-text", "", "expected end of input", 3},
