@@ -87,7 +87,10 @@ void Run::clear() {
 
 int guarded(const Console& console, const std::string& subject, const std::function<int()>& verb) {
   const auto fail = [&](const std::string& text, int code) {
-    console.fail(subject + ": " + text);
+    // A message about the file itself starts with its name already, perhaps with its folder.
+    const std::size_t at = text.find(subject + ": ");
+    const bool named = at == 0 || (at != std::string::npos && text[at - 1] == '/' && text.find(": ") > at);
+    console.fail(named ? text : subject + ": " + text);
     return code;
   };
   try {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "app/cli/text_table.hpp"
 #include "app/cli/verbs.hpp"
 #include "app/json/choices.hpp"
@@ -62,17 +60,39 @@ Rows checks() {
 
 struct Family {
   const char* name;
+  const char* description;
   Rows (*rows)();
 };
 constexpr Family families[] = {
-    {"primaries", primaries},
-    {"trimlines", trimlines},
-    {"magnitudes", [] { return words("magnitude_rule"); }},
-    {"shapes", shapes},
-    {"exporters", [] { return words("format"); }},
-    {"checks", checks},
-    {"families", [] { return words("family"); }},
+    {"primaries", "kinds of primary surface", primaries},
+    {"trimlines", "kinds of trimline", trimlines},
+    {"continuities", "what a side may be asked to reach", [] { return words("continuity"); }},
+    {"magnitudes", "rules for the length of the cross tangent", [] { return words("magnitude_rule"); }},
+    {"keeps", "which part of a primary stays", [] { return words("keep"); }},
+    {"correspondences", "which points of the trimlines are joined",
+     [] { return words("correspondence_rule"); }},
+    {"shapes", "controls of a blend's shape", shapes},
+    {"modes", "what the sweep equation holds for", [] { return words("mode"); }},
+    {"frames", "axes of the coefficients b, c and d", [] { return words("frame"); }},
+    {"families", "sixth-order families, for G2", [] { return words("family"); }},
+    {"units", "units of length", [] { return words("unit"); }},
+    {"exporters", "formats of the output", [] { return words("format"); }},
+    {"schemas", "STEP application protocols", [] { return words("step_schema"); }},
+    {"checks", "what is measured and judged", checks},
 };
+
+Rows family_rows() {
+  Rows rows;
+  for (const Family& f : families) rows.push_back({f.name, f.description, ""});
+  return rows;
+}
+
+Rows rows_of(const std::string& name) {
+  if (name.empty()) return family_rows();
+  for (const Family& f : families)
+    if (f.name == name) return f.rows();
+  throw InputError("", "there is no family of this name");
+}
 
 }  // namespace
 
@@ -83,21 +103,19 @@ std::vector<std::string> listed_families() {
 }
 
 int list(const ListCommand& command, const Console& console) {
-  return guarded(console, "list " + command.family, [&] {
-    const auto family = std::find_if(std::begin(families), std::end(families),
-                                     [&](const Family& f) { return f.name == command.family; });
-    if (family == std::end(families)) throw InputError("", "there is no family of this name");
+  return guarded(console, command.family.empty() ? "list" : "list " + command.family, [&] {
+    const Rows rows = rows_of(command.family);
     if (command.json) {
-      JsonValue::Array rows;
-      for (const Row& r : family->rows()) {
-        rows.push_back(JsonValue::object({{"name", r.name}, {"description", r.description}}));
-        if (!r.keys.empty()) rows.back().add("keys", r.keys);
+      JsonValue::Array items;
+      for (const Row& r : rows) {
+        items.push_back(JsonValue::object({{"name", r.name}, {"description", r.description}}));
+        if (!r.keys.empty()) items.back().add("keys", r.keys);
       }
-      console.out() << json_text(std::move(rows));
+      console.out() << json_text(std::move(items));
       return exit_done;
     }
     TextRows table;
-    for (const Row& r : family->rows()) {
+    for (const Row& r : rows) {
       table.push_back({r.name, r.description});
       if (!r.keys.empty()) table.push_back({"", "keys: " + r.keys});
     }

@@ -1,5 +1,7 @@
 // The command line: the only file that sees CLI11 (which is why it takes longer to compile than the others).
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 
 #include "app/cli/verbs.hpp"
 #include "app/json/choices.hpp"
@@ -48,6 +50,23 @@ void optional_number(CLI::App* sub, const char* flag, std::optional<T>& value, c
   sub->add_option(flag, value, help)->check(check);
 }
 
+/// Numbers above zero; the message says that, and no largest double.
+CLI::Validator positive() {
+  const auto check = [](std::string& text) -> std::string {
+    double x = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    if (error != std::errc() || end != text.data() + text.size()) return "is " + text + ", must be a number";
+    return x > 0.0 && std::isfinite(x) ? "" : "is " + text + ", must be > 0";
+  };
+  return CLI::Validator(check, "NUMBER");
+}
+
+void add_json(CLI::App* sub, bool& json, bool& times) {
+  CLI::Option* flag = sub->add_flag("--json", json, "print the report instead of the table");
+  CLI::Option* clock = sub->add_flag("--times", times, "time of each stage in the report");
+  if (sub->get_name() == "verify") clock->needs(flag);  // it writes no report
+}
+
 void add_threads(CLI::App* sub, std::optional<int>& threads) {
   optional_number(sub, "--threads", threads, "number of threads; the result is the same",
                   CLI::Range(1, 1024));
@@ -58,12 +77,18 @@ void add_blend(CLI::App& app, BlendCommand& command, const Console& console, int
   for (const auto& c : format_choices()) formats.emplace_back(c.name);
   CLI::App* sub = verb(app, "blend");
   sub->add_option("JOB", command.job, "job file; - reads standard input")->required();
-  sub->add_option("-o,--output", command.folder, "output folder")->capture_default_str();
+  sub->add_option("-o,--out,--output", command.folder, "output folder")
+      ->capture_default_str()
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            return text.empty() ? std::string("is empty, must be a folder; . is the current one") : "";
+          },
+          "FOLDER"));
   sub->add_option("--format", command.formats, "formats instead of the job's, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(formats));
   sub->add_flag("--force", command.force, "replace files that exist");
-  sub->add_flag("--json", command.json, "print the report instead of the table");
+  add_json(sub, command.json, command.times);
   sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
   add_threads(sub, command.threads);
   sub->callback([&] { code = blend(command, console); });
@@ -72,12 +97,12 @@ void add_blend(CLI::App& app, BlendCommand& command, const Console& console, int
 void add_verify(CLI::App& app, VerifyCommand& command, const Console& console, int& code) {
   CLI::App* sub = verb(app, "verify");
   sub->add_option("JOB", command.job, "job file; - reads standard input")->required();
-  optional_number(sub, "--tol-position", command.position, "largest gap, model units", CLI::PositiveNumber);
+  optional_number(sub, "--tol-position", command.position, "largest gap, model units", positive());
   optional_number(sub, "--tol-angle-deg", command.angle_deg, "largest angle between tangent planes",
-                  CLI::PositiveNumber);
+                  positive());
   optional_number(sub, "--tol-curvature", command.curvature, "largest jump of normal curvature, 1/model unit",
-                  CLI::PositiveNumber);
-  sub->add_flag("--json", command.json, "print the report instead of the table");
+                  positive());
+  add_json(sub, command.json, command.times);
   sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
   add_threads(sub, command.threads);
   sub->callback([&] { code = verify(command, console); });
@@ -92,8 +117,7 @@ void add_inspect(CLI::App& app, InspectCommand& command, const Console& console,
 
 void add_list(CLI::App& app, ListCommand& command, const Console& console, int& code) {
   CLI::App* sub = verb(app, "list");
-  sub->add_option("FAMILY", command.family, "what to list")
-      ->required()
+  sub->add_option("FAMILY", command.family, "what to list; without it, what there is to list")
       ->check(CLI::IsMember(listed_families()));
   sub->add_flag("--json", command.json, "print JSON");
   sub->callback([&] { code = list(command, console); });

@@ -19,21 +19,14 @@ std::string fixed2(double x) {
   return text.size() - dot < 3 ? text + "0" : text;
 }
 
-std::string coordinates(const Vec3& p) {
-  const double negligible = 1e-9 * p.cwiseAbs().maxCoeff();
-  std::string text = "(";
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    if (i > 0) text += ',';
-    text += std::abs(p[i]) <= negligible ? "0" : number_text(p[i], 3);
-  }
-  return text + ")";
-}
-
 /// One seam at the last stage measured.
 struct SeamRow {
   std::string blend, side;
   Continuity asked = Continuity::G1, got = Continuity::none;
   const SeamReport* seam = nullptr;
+  double size = 0.0;  ///< of the blend
+
+  [[nodiscard]] bool missed() const { return seam->measured && got < asked; }
 };
 
 std::vector<SeamRow> seam_rows(const JobResult& result) {
@@ -43,7 +36,7 @@ std::vector<SeamRow> seam_rows(const JobResult& result) {
     for (std::size_t i = 0; i < 2; ++i) {
       const SeamReport& seam = b.stages.back().seams[i];
       rows.push_back({b.entry.name, i == 0 ? "from" : "to", b.entry.sides[i].side.continuity,
-                      reached(seam, result.job.tolerance), &seam});
+                      reached(seam, result.job.tolerance), &seam, b.stages.back().size});
     }
   }
   return rows;
@@ -77,14 +70,23 @@ std::string seam_table(const std::vector<SeamRow>& rows, const JobSpec& job) {
                   "jump (1/" + unit + ")", "worst at v"}};
   std::vector<std::string> places;
   for (const SeamRow& r : rows) {
+    if (!r.seam->measured) {
+      table.push_back({r.blend, r.side, name(r.asked), "not measured", "", "", "", ""});
+      places.emplace_back();
+      continue;
+    }
     const Deviation& at = decisive(r, job.tolerance);
-    places.push_back(fixed2(at.v) + " " + coordinates(at.point));
+    places.push_back(fixed2(at.v) + " " + place_text(at.point, r.size, ","));
     table.push_back({r.blend, r.side, name(r.asked), name(r.got), figure(r.seam->gap.worst, true),
                      figure(r.seam->angle.worst * Radians(1.0).degrees(), r.asked >= Continuity::G1),
                      figure(r.seam->curvature.worst, r.asked >= Continuity::G2), places.back()});
   }
+  const bool brackets = std::any_of(rows.begin(), rows.end(), [](const SeamRow& r) {
+    return r.seam->measured && r.asked < Continuity::G2;
+  });
+  const std::string legend = brackets ? "  (...) not asked\n" : "";
   std::string text = aligned(table);
-  if (widest_line(text) <= 80) return text;
+  if (widest_line(text) <= 80) return text + legend;
   // Too wide for a terminal: the places go below their rows.
   for (auto& row : table) row.pop_back();
   const std::string narrow = aligned(table);
@@ -93,10 +95,10 @@ std::string seam_table(const std::vector<SeamRow>& rows, const JobSpec& job) {
   for (std::size_t at = 0; at < narrow.size(); ++line) {
     const std::size_t end = narrow.find('\n', at) + 1;
     text += narrow.substr(at, end - at);
-    if (line > 0) text += "    worst at v = " + places[line - 1] + "\n";
+    if (line > 0 && !places[line - 1].empty()) text += "    worst at v = " + places[line - 1] + "\n";
     at = end;
   }
-  return text;
+  return text + legend;
 }
 
 std::string failed_checks(const JobResult& result) {
@@ -117,28 +119,63 @@ std::string size_text(std::size_t bytes) {
          (mega ? " MB" : " kB");
 }
 
+/// "all within tolerance", "1 not within tolerance, 1 not measured (no primary)", ...
+std::string verdict(const std::vector<SeamRow>& rows, bool good) {
+  const auto count = [&](auto is) {
+    return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), is));
+  };
+  const std::size_t missed = count([](const SeamRow& r) { return r.missed(); });
+  const std::size_t unmeasured = count([](const SeamRow& r) { return !r.seam->measured; });
+  const std::string left = std::to_string(unmeasured) + " not measured (no primary)";
+  std::string text;
+  if (missed > 0)
+    text = std::to_string(missed) + " not within tolerance";
+  else if (unmeasured == 0)
+    text = "all within tolerance";
+  else if (unmeasured < rows.size())
+    text = std::to_string(rows.size() - unmeasured) + " within tolerance";
+  if (unmeasured > 0) text += (text.empty() ? "" : ", ") + left;
+  return missed > 0 || good ? text : text + ", but a check failed";
+}
+
+/// Words separated by commas, on lines of at most 80 columns.
+class WrappedList {
+ public:
+  explicit WrappedList(std::string start) : text_(std::move(start)), column_(text_.size()) {}
+  void add(const std::string& word) {
+    if (!first_) put(",");
+    // The comma or the seconds that may follow need a column.
+    if (!first_ && column_ + 1 + word.size() + 1 > 80) {
+      text_ += "\n ";
+      column_ = 1;
+    }
+    if (!first_) put(" ");
+    put(word);
+    first_ = false;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void put(const std::string& more) {
+    text_ += more;
+    column_ += more.size();
+  }
+  std::string text_;
+  std::size_t column_ = 0;
+  bool first_ = true;
+};
+
 }  // namespace
 
 std::string run_table(const JobResult& result, const JobOutputs* outputs, const std::string& job_file) {
   const std::vector<SeamRow> rows = seam_rows(result);
-  const auto missed = static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const SeamRow& r) { return r.got < r.asked; }));
-  std::string text =
-      job_file + ": " + counted(result.blends.size(), "blend") + ", " + counted(rows.size(), "seam") + ", ";
-  const bool good = verified(result, outputs);
-  if (missed > 0)
-    text += std::to_string(missed) + " not within tolerance\n";
-  else
-    text += good ? "all within tolerance\n" : "all within tolerance, but a check failed\n";
+  std::string text = job_file + ": " + counted(result.blends.size(), "blend") + ", " +
+                     counted(rows.size(), "seam") + ", " + verdict(rows, verified(result, outputs)) + "\n";
   text += seam_table(rows, result.job);
   text += failed_checks(result);
+  if (outputs)
+    for (const std::string& p : shape_problems(result, *outputs)) text += "  " + p + "\n";
   if (outputs && outputs->step) {
-    const ShapeCheck& c = outputs->step->check;
-    if (!c.valid) text += "  the STEP file's shape is not valid\n";
-    for (const std::string& p : c.problems) text += "    " + p + "\n";
-    if (c.unexpected_free_edges > 0)
-      text += "  " + counted(c.unexpected_free_edges, "trimline edge") +
-              " of the STEP file not shared by two faces\n";
     for (const WrittenFile& f : outputs->files)
       if (f.kind == "step") text += "  measured on " + f.path.string() + ", read back\n";
   } else {
@@ -148,26 +185,14 @@ std::string run_table(const JobResult& result, const JobOutputs* outputs, const 
 }
 
 std::string written_files(const JobOutputs& outputs, StepSchema schema) {
-  std::string text = "wrote ";
-  std::vector<std::string> kinds;
-  for (const WrittenFile& f : outputs.files)
-    if (std::find(kinds.begin(), kinds.end(), f.kind) == kinds.end()) kinds.push_back(f.kind);
-  for (const std::string& kind : kinds) {
-    const auto of_kind = [&](const WrittenFile& f) { return f.kind == kind; };
-    const auto first = std::find_if(outputs.files.begin(), outputs.files.end(), of_kind);
-    const auto count = std::count_if(outputs.files.begin(), outputs.files.end(), of_kind);
-    if (kind != kinds.front()) text += ", ";
-    const bool whole = kind == kinds.front();  // the first one with its folder, the others by extension
-    if (whole)
-      text += first->path.string();
-    else if (kind == "report")
-      text += "report.json";
-    else
-      text += "." + kind;
-    if (count > 1) text += " x" + std::to_string(count);
-    if (kind == "step") text += std::string(" (") + name(schema) + ", " + size_text(first->bytes) + ")";
+  WrappedList list("wrote ");
+  for (const WrittenFile& f : outputs.files) {
+    // The first one with its folder, which is that of all.
+    std::string word = &f == &outputs.files.front() ? f.path.string() : f.path.filename().string();
+    if (f.kind == "step") word += std::string(" (") + name(schema) + ", " + size_text(f.bytes) + ")";
+    list.add(word);
   }
-  return text;
+  return list.text();
 }
 
 }  // namespace blendwright

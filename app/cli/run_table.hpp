@@ -7,10 +7,11 @@
 namespace blendwright {
 
 /// A headline and one row per seam: asked, reached, gap, angle, curvature jump and the worst place, at the
-/// last stage measured; then every failed check. At most 80 columns unless a name is long.
+/// last stage measured; then every failed check. Sides that could not be measured are counted apart. At most
+/// 80 columns unless a name is long.
 [[nodiscard]] std::string run_table(const JobResult& result, const JobOutputs* outputs,
                                     const std::string& job_file);
-/// "wrote out/x.step (AP242, 41 kB), .vtp x3, ...".
+/// "wrote out/x.step (AP242, 41 kB), x.report.json": every file by its name, wrapped at 80 columns.
 [[nodiscard]] std::string written_files(const JobOutputs& outputs, StepSchema schema);
 
 }  // namespace blendwright

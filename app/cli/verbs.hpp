@@ -20,7 +20,7 @@ struct BlendCommand {
   std::string job;  ///< "-": standard input
   std::string folder = "out";
   std::vector<std::string> formats;  ///< words of the format family; empty: as the job says
-  bool force = false, json = false, quiet = false;
+  bool force = false, json = false, times = false, quiet = false;
   std::optional<int> threads;
 };
 /// Builds, writes and verifies.
@@ -29,7 +29,7 @@ struct BlendCommand {
 struct VerifyCommand {
   std::string job;
   std::optional<double> position, angle_deg, curvature;  ///< instead of the job's tolerances
-  bool json = false, quiet = false;
+  bool json = false, times = false, quiet = false;
   std::optional<int> threads;
 };
 /// Builds and verifies in memory.
@@ -43,10 +43,10 @@ struct InspectCommand {
 [[nodiscard]] int inspect(const InspectCommand& command, const Console& console);
 
 struct ListCommand {
-  std::string family;
+  std::string family;  ///< empty: the families themselves
   bool json = false;
 };
-/// Lists the rows of a family table.
+/// Lists the rows of a family table, or the families.
 [[nodiscard]] int list(const ListCommand& command, const Console& console);
 [[nodiscard]] std::vector<std::string> listed_families();
 

@@ -19,7 +19,7 @@ int verify(const VerifyCommand& command, const Console& console) {
     if (!command.quiet)
       for (const std::string& w : result.warnings) console.warn(w);
     if (command.json)
-      console.out() << report_json(result, nullptr, false);
+      console.out() << report_json(result, nullptr, command.times);
     else if (!command.quiet)
       console.out() << run_table(result, nullptr, shown_name(command.job));
     return verified(result) ? exit_done : exit_not_verified;

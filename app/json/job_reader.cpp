@@ -33,9 +33,9 @@ const JsonValue::Object& named(ObjectReader& job, const char* key, Reading& read
   }
   for (const JsonMember& m : *members)
     if (!good_name(m.key))
-      reading.problem(
-          job.at(key) + "/" + pointer_part(m.key),
-          "is named " + in_quotes(m.key) + "; a name must be 1 to 60 letters, digits, \"_\" or \"-\"");
+      reading.problem(job.at(key) + "/" + pointer_part(m.key),
+                      "is named " + in_quotes(m.key) +
+                          "; a name must be 1 to 60 of the letters a-z and A-Z, digits, \"_\" and \"-\"");
   return *members;
 }
 

@@ -1,5 +1,6 @@
 // The only file that sees the JSON library.
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <unordered_set>
 
 #include "app/json/json_value.hpp"
@@ -18,27 +19,46 @@ std::string place(std::string_view text, std::size_t position) {
   return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::size_t>(column, 1));
 }
 
-/// Refuses what would exhaust a parser's stack, before there is one: brackets outside of texts and comments.
-void refuse_deep_nesting(std::string_view text) {
-  std::size_t depth = 0;
+/// Calls see(position, character) for everything that is no blank and no comment; a text is its first quote.
+template <class See>
+void for_each_symbol(std::string_view text, See see) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '"') {
-      for (++i; i < text.size() && text[i] != '"'; ++i)
-        if (text[i] == '\\') ++i;
-    } else if (c == '/' && i + 1 < text.size() && text[i + 1] == '/') {
+    if (c == '/' && i + 1 < text.size() && text[i + 1] == '/') {
       i = std::min(text.find('\n', i), text.size());
     } else if (c == '/' && i + 1 < text.size() && text[i + 1] == '*') {
       const std::size_t end = text.find("*/", i + 2);
       i = end == std::string_view::npos ? text.size() : end + 1;
-    } else if (c == '[' || c == '{') {
+    } else if (c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+      see(i, c);
+      if (c != '"') continue;
+      for (++i; i < text.size() && text[i] != '"'; ++i)
+        if (text[i] == '\\') ++i;
+    }
+  }
+}
+
+/// Refuses what would exhaust a parser's stack, before there is one: brackets outside of texts and comments.
+void refuse_deep_nesting(std::string_view text) {
+  std::size_t depth = 0;
+  for_each_symbol(text, [&](std::size_t i, char c) {
+    if (c == '[' || c == '{') {
       if (++depth > deepest_json)
         throw InputError("", place(text, i + 1) + ": nested deeper than " + std::to_string(deepest_json) +
                                  " levels, the limit");
     } else if ((c == ']' || c == '}') && depth > 0) {
       --depth;
     }
-  }
+  });
+}
+
+/// The comma before the bracket that closes at `end` (one past it), when it has one.
+std::optional<std::size_t> comma_before_bracket(std::string_view text, std::size_t end) {
+  if (end == 0 || end > text.size() || (text[end - 1] != '}' && text[end - 1] != ']')) return std::nullopt;
+  std::optional<std::size_t> comma;
+  for_each_symbol(text.substr(0, end - 1),
+                  [&](std::size_t i, char c) { comma = c == ',' ? std::optional(i) : std::nullopt; });
+  return comma;
 }
 
 /// What the library says went wrong, without its preamble.
@@ -49,12 +69,7 @@ std::string reason(std::string text) {
     text.erase(0, at + std::string_view(mark).size());
     break;
   }
-  std::string clean;
-  for (const char c : text.substr(0, 160)) {
-    const auto byte = static_cast<unsigned char>(c);
-    clean += byte < 0x20 || byte >= 0x7f ? '?' : c;
-  }
-  return clean + (text.size() > 160 ? "..." : "");
+  return printable(text, 160);
 }
 
 /// Builds the value while the library reads; the library's own document (which drops repeated keys) is not
@@ -85,6 +100,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& error) override {
+    if (const auto comma = comma_before_bracket(text_, position))
+      throw InputError("", place(text_, *comma + 1) + ": a comma before '}' or ']' is one too many");
     std::string why = reason(error.what());
     const auto says = [&](const char* words) { return why.find(words) != std::string::npos; };
     if (says("invalid literal") && token.find_first_of("NI") != std::string::npos)

@@ -41,6 +41,21 @@ void write_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
+/// Bytes of the UTF-8 character that the text starts with; 0 when it starts with none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Overlong forms, surrogates, and beyond the last code point.
+  const bool none = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) >= 0xA0) ||
+                    (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) >= 0x90);
+  return none ? 0 : length;
+}
+
 bool plain(const JsonValue& v) { return !v.items() && !v.members(); }
 
 void write(std::string& out, const JsonValue& v, std::size_t level);
@@ -112,14 +127,28 @@ JsonValue& JsonValue::add(std::string key, JsonValue member) {
   return all.back().value;
 }
 
-std::string in_quotes(std::string_view text, std::size_t limit) {
-  std::string shown(1, '"');
-  for (const char c : text.substr(0, limit)) {
-    const auto byte = static_cast<unsigned char>(c);
-    shown += byte < 0x20 || byte >= 0x7f ? '?' : c;
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string shown;
+  std::size_t at = 0;
+  for (std::size_t count = 0; at < text.size() && count < limit; ++count) {
+    const std::size_t length = character_length(text.substr(at));
+    const auto first = static_cast<unsigned char>(text[at]);
+    const bool control = first < 0x20 || first == 0x7f ||
+                         (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[at + 1]) < 0xA0);
+    if (length == 0 || control)
+      shown += '?';
+    else
+      shown += text.substr(at, length);
+    at += std::max<std::size_t>(length, 1);
   }
-  if (text.size() > limit) shown += "...";
-  return shown += '"';
+  if (at < text.size()) shown += "...";
+  return shown;
+}
+
+std::string in_quotes(std::string_view text, std::size_t limit) {
+  std::string quoted(1, '"');
+  quoted += printable(text, limit);
+  return quoted += '"';
 }
 
 std::string described(const JsonValue& value) {
@@ -133,14 +162,13 @@ std::string described(const JsonValue& value) {
 
 std::string pointer_part(std::string_view key) {
   std::string part;
-  for (const char c : key.substr(0, 100)) {
-    const auto byte = static_cast<unsigned char>(c);
+  for (const char c : printable(key, 100)) {
     if (c == '~')
       part += "~0";
     else if (c == '/')
       part += "~1";
     else
-      part += byte < 0x20 || byte == 0x7f ? '?' : c;
+      part += c;
   }
   return part;
 }

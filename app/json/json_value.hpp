@@ -50,7 +50,10 @@ struct JsonMember {
 
 /// "is 3", "is "text"", "is an object": how an error message names the value; long texts are cut.
 [[nodiscard]] std::string described(const JsonValue& value);
-/// `text` in quotes, shortened to `limit` characters, unprintable bytes replaced.
+/// At most `limit` characters of UTF-8; control characters and bytes that are no UTF-8 become "?", and "..."
+/// stands for the rest.
+[[nodiscard]] std::string printable(std::string_view text, std::size_t limit);
+/// `text` in quotes, as printable() gives it.
 [[nodiscard]] std::string in_quotes(std::string_view text, std::size_t limit = 60);
 /// A key as a part of a JSON pointer ("/" and "~" escaped).
 [[nodiscard]] std::string pointer_part(std::string_view key);

@@ -66,6 +66,8 @@ constexpr Field<SideStage> side_fields[] = {
     {"asked", "text", "continuity asked", [](const SideStage& s) { return JsonValue(name(s.asked)); }},
     {"reached", "text", "continuity reached within the tolerance",
      [](const SideStage& s) { return JsonValue(name(reached(s.seam, s.tolerance))); }},
+    {"measured", "boolean", "false: the side has no primary, and no figure below counts",
+     [](const SideStage& s) { return JsonValue(s.seam.measured); }},
     {"samples", "integer", "places measured along the trimline",
      [](const SideStage& s) { return JsonValue(s.seam.samples); }},
     {"gap", "deviation", "distance to the trimline, model units",
@@ -269,8 +271,7 @@ constexpr Field<WrittenFile> file_fields[] = {
     {"name", "text", "file name in the output folder",
      [](const WrittenFile& f) { return JsonValue(f.path.filename().string()); }},
     {"kind", "text", "its format", [](const WrittenFile& f) { return JsonValue(f.kind); }},
-    {"bytes", "integer", "its size; 0 for the report itself",
-     [](const WrittenFile& f) { return JsonValue(f.bytes); }},
+    {"bytes", "integer", "its size", [](const WrittenFile& f) { return JsonValue(f.bytes); }},
 };
 
 constexpr Field<StageTime> time_fields[] = {
@@ -305,11 +306,13 @@ constexpr Field<Report> report_fields[] = {
        return r.outputs && r.outputs->step ? written<StepContent>(*r.outputs->step, step_fields)
                                            : JsonValue();
      }},
-    {"files", "list of file", "what was written",
+    {"files", "list of file", "what was written, besides the report itself",
      [](const Report& r) {
-       return r.outputs ? list(r.outputs->files,
-                               [](const WrittenFile& f) { return written<WrittenFile>(f, file_fields); })
-                        : JsonValue(JsonValue::Array());
+       JsonValue::Array files;
+       if (r.outputs)
+         for (const WrittenFile& f : r.outputs->files)
+           if (f.kind != "report") files.push_back(written<WrittenFile>(f, file_fields));
+       return JsonValue(std::move(files));
      }},
     {"warnings", "list of text", "warnings of the whole job",
      [](const Report& r) { return texts(r.result.warnings); }},

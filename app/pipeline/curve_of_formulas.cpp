@@ -30,7 +30,7 @@ Curve<Dim> through_points(const CurveSpec& spec) {
   try {
     return interpolate_points<Dim>(points, chord_parameters<Dim>(points, spec.closed), spec.closed, degree);
   } catch (const InputError& e) {
-    throw InputError("points", e.what());
+    throw InputError("points", e.problems().front().message);
   }
 }
 
@@ -48,7 +48,7 @@ Curve<Dim> make_curve(const CurveSpec& spec, const std::map<std::string, double>
     try {
       curve.formulas.emplace_back(spec.formulas[i], std::vector<std::string>{"v"}, constants);
     } catch (const InputError& e) {
-      problems.push_back({"curve/" + std::to_string(i), e.what()});
+      problems.push_back({"curve/" + std::to_string(i), e.problems().front().message});
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -39,6 +40,17 @@ std::string number_text(double x, int significant) {
 }
 std::string scientific_text(double x, int digits) {
   return text(x, std::chars_format::scientific, digits - 1);
+}
+
+std::string place_text(double x, double resolution) {
+  if (!std::isfinite(x) || !(resolution > 0.0) || !std::isfinite(resolution)) return number_text(x);
+  const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(resolution))), 0, 15);
+  // Longer than any reader follows: an exponent then says more.
+  if (!(std::abs(x) < 1e15)) return number_text(x, 6);
+  std::string digits = text(x, std::chars_format::fixed, decimals);
+  if (digits.find('.') != std::string::npos) digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits == "-0" ? "0" : digits;
 }
 
 std::string hash_text(std::string_view bytes) {

@@ -188,7 +188,8 @@ struct Seed {
 };
 
 /// The lowest `count` local minima of f on a grid of cell centres (which avoid poles and borders), best
-/// first.
+/// first. Of cells that differ by rounding only, as around a pole on the axis of projection, one is taken:
+/// otherwise a ring of them would fill the list and leave no seed elsewhere.
 template <class F>
 std::vector<Seed> grid_minima(const Surface& surface, const SurfaceDomain& domain, F f, std::size_t count) {
   constexpr int n = seeds_per_direction;
@@ -200,12 +201,16 @@ std::vector<Seed> grid_minima(const Surface& surface, const SurfaceDomain& domai
       cell(i, j) = {p, f(surface.jet(p))};
     }
   std::vector<Seed> minima;
+  const auto is_lower = [&](int a, int b, int i, int j) {
+    const auto there = static_cast<float>(cell(a, b).f), here = static_cast<float>(cell(i, j).f);
+    return there < here || (there == here && a * n + b < i * n + j);
+  };
   const auto neighbour_is_lower = [&](int i, int j) {
     for (int a = i - 1; a <= i + 1; ++a)
       for (int b = j - 1; b <= j + 1; ++b) {
         if ((a < 0 || a >= n) && !domain.u_closed) continue;
         if ((b < 0 || b >= n) && !domain.v_closed) continue;
-        if (cell((a + n) % n, (b + n) % n).f < cell(i, j).f) return true;
+        if (is_lower((a + n) % n, (b + n) % n, i, j)) return true;
       }
     return false;
   };

@@ -1,5 +1,6 @@
 // Trimlines made by projecting a space curve: feet followed along v, exact derivatives by Newton on Taylor
 // series.
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/error.hpp"
@@ -168,10 +169,26 @@ class Follower {
   [[nodiscard]] GeometryError no_projection(double v) const {
     const Vec3 q = curve_.point(v);
     const std::string how = direction_ ? "along the given direction" : "to the closest point";
+    if (meets_pole(q))
+      return GeometryError("the projection of the curve " + how + " passes through a pole of its primary " +
+                           place(v, q) + ", where the primary's parameters turn over; move the curve off it");
     return GeometryError("the curve has no projection on the primary's domain " + place(v, q) + " " + how +
                          ": the nearest point of the primary is " +
                          number_text(closest_point(equations_.primary(), q).distance, 6) +
                          " away; extend the primary or move the curve");
+  }
+
+  /// Whether the primary has a pole at the foot of q or so near that feet cannot be followed past it: one
+  /// parameter hardly moves the point.
+  [[nodiscard]] bool meets_pole(const Vec3& q) const {
+    const Surface& primary = equations_.primary();
+    const std::optional<Foot> foot =
+        direction_ ? shoot(primary, q, *direction_) : std::optional(closest_point(primary, q));
+    if (!foot) return false;
+    const SurfaceDomain box = primary.domain();
+    const SurfaceJet s = primary.jet(foot->at);
+    const double u = s.Su.norm() * box.u.length(), v = s.Sv.norm() * box.v.length();
+    return std::min(u, v) <= 1e-3 * std::max(u, v);
   }
 
   const FootEquations& equations_;

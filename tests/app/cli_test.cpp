@@ -51,9 +51,10 @@ TEST(Program, SaysItsVersionAndHelpsWithAnExamplePerVerb) {
 
 TEST(Program, RefusesWrongUsageWithCode2AndNothingOnStandardOutput) {
   for (const char* arguments :
-       {"", "blnd x.json", "blend", "blend x.json --format iges", "blend x.json --threads 0", "list",
-        "list surfaces", "schema", "schema all", "verify x.json --tol-position -1",
-        "verify x.json --tol-angle-deg nan?", "blend x.json --no-such-flag", "inspect"}) {
+       {"", "blnd x.json", "blend", "blend x.json --format iges", "blend x.json --threads 0", "list surfaces",
+        "blend x.json -o ''", "verify x.json --times", "schema", "schema all",
+        "verify x.json --tol-position -1", "verify x.json --tol-angle-deg nan?",
+        "blend x.json --no-such-flag", "inspect"}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.code, 2);
@@ -63,13 +64,20 @@ TEST(Program, RefusesWrongUsageWithCode2AndNothingOnStandardOutput) {
 }
 
 TEST(Program, ListsEveryFamilyAsTextAndAsJson) {
-  const std::array<std::array<const char*, 2>, 7> rows{{{"primaries", "elliptic_paraboloid"},
-                                                        {"trimlines", "edge_chain"},
-                                                        {"magnitudes", "minimum_bending"},
-                                                        {"shapes", "tension"},
-                                                        {"exporters", "vtp"},
-                                                        {"checks", "gap"},
-                                                        {"families", "tension1"}}};
+  const std::array<std::array<const char*, 2>, 14> rows{{{"primaries", "elliptic_paraboloid"},
+                                                         {"continuities", "G2"},
+                                                         {"keeps", "auto"},
+                                                         {"correspondences", "minimal_twist"},
+                                                         {"modes", "anchor"},
+                                                         {"frames", "moving"},
+                                                         {"units", "mm"},
+                                                         {"schemas", "AP242"},
+                                                         {"trimlines", "edge_chain"},
+                                                         {"magnitudes", "minimum_bending"},
+                                                         {"shapes", "tension"},
+                                                         {"exporters", "vtp"},
+                                                         {"checks", "gap"},
+                                                         {"families", "tension1"}}};
   for (const auto& [family, member] : rows) {
     SCOPED_TRACE(family);
     const Outcome text = run_program(std::string("list ") + family);
@@ -81,6 +89,90 @@ TEST(Program, ListsEveryFamilyAsTextAndAsJson) {
     EXPECT_FALSE(parsed.items()->empty());
     EXPECT_THAT(json.out, HasSubstr(member));
   }
+}
+
+std::vector<std::string> names_of(const JsonValue& rows, const char* key) {
+  std::vector<std::string> names;
+  for (const JsonValue& row : *rows.items()) names.push_back(*row.find(key)->text());
+  return names;
+}
+
+TEST(Program, ListsTheFamiliesWhenNoneIsNamed) {
+  const Outcome text = run_program("list");
+  EXPECT_EQ(text.code, 0);
+  const std::vector<std::string> families = names_of(parse_json(run_program("list --json").out), "name");
+  EXPECT_EQ(families.size(), 14u);
+  for (const std::string& family : families) {
+    EXPECT_THAT(text.out, HasSubstr("  " + family + " "));
+    EXPECT_EQ(run_program("list " + family).code, 0);
+  }
+}
+
+TEST(Program, UsesTheWordsOfListInTheSchemaAndInErrorMessages) {
+  const JsonValue schema = parse_json(run_program("schema job").out);
+  struct Where {
+    const char *family, *definition, *before, *after;  ///< a job with a wrong word of the family
+  };
+  const Where places[] = {
+      {"continuities", "continuity", R"("blends": {"b": {"from": {"continuity": )", "}}}"},
+      {"magnitudes", "magnitude_rule", R"("blends": {"b": {"from": {"magnitude": {"rule": )", "}}}}"},
+      {"keeps", "keep", R"("blends": {"b": {"from": {"keep": )", "}}}"},
+      {"correspondences", "correspondence_rule", R"("blends": {"b": {"correspondence": {"rule": )", "}}}"},
+      {"modes", "mode", R"("blends": {"b": {"shape": {"mode": )", "}}}"},
+      {"frames", "frame", R"("blends": {"b": {"shape": {"frame": )", "}}}"},
+      {"families", "family", R"("blends": {"b": {"shape": {"family": )", "}}}"},
+      {"units", "unit", R"("unit": )", ""},
+      {"exporters", "format", R"("output": {"formats": [)", "]}"},
+      {"schemas", "step_schema", R"("output": {"step_schema": )", "}"}};
+  const Folder folder;
+  for (const Where& w : places) {
+    SCOPED_TRACE(w.family);
+    const auto listed = names_of(parse_json(run_program(std::string("list --json ") + w.family).out), "name");
+    const JsonValue* definition = schema.find("$defs")->find(w.definition);
+    ASSERT_NE(definition, nullptr);
+    EXPECT_EQ(names_of(*definition->find("oneOf"), "const"), listed);
+    write(folder / "job.json", std::string("{") + w.before + "\"?\"" + w.after + "}");
+    std::string words = "is \"?\", must be ";
+    for (std::size_t i = 0; i < listed.size(); ++i)
+      words += (i == 0 ? "\"" : i + 1 == listed.size() ? " or \"" : ", \"") + listed[i] + "\"";
+    EXPECT_THAT(run_program("verify " + quoted_path(folder / "job.json")).err, HasSubstr(words));
+  }
+}
+
+TEST(Program, SaysWhatAnOptionMustBe) {
+  EXPECT_THAT(run_program("verify x.json --tol-angle-deg -1").err,
+              AllOf(HasSubstr("--tol-angle-deg: is -1, must be > 0\n"), Not(HasSubstr("e+308"))));
+  EXPECT_THAT(run_program("verify x.json --tol-position inf").err, HasSubstr("is inf, must be > 0"));
+  EXPECT_THAT(run_program("verify x.json --tol-position 1e-3x").err, HasSubstr("must be a number"));
+  EXPECT_THAT(run_program("blend x.json -o ''").err, HasSubstr("--out: is empty, must be a folder"));
+}
+
+TEST(Program, ReportsStageTimesOnlyWhenAsked) {
+  const Folder folder;
+  const std::string job = example("coaxial-cylinders");
+  EXPECT_NE(parse_json(run_program("verify --json --times " + job).out).find("times"), nullptr);
+  EXPECT_EQ(parse_json(run_program("verify --json " + job).out).find("times"), nullptr);
+  const std::string blend = "blend --format obj --force " + job + " -o " + quoted_path(folder.path());
+  for (const char* flag : {"", " --times"}) {
+    EXPECT_EQ(run_program(blend + flag).code, 0);
+    const JsonValue report = parse_json(content(folder / "coaxial-cylinders.report.json"));
+    EXPECT_EQ(report.find("times") != nullptr, *flag != 0);
+    ASSERT_EQ(report.find("files")->items()->size(), 1u);  // the report does not list itself
+    EXPECT_GT(*report.find("files")->items()->front().find("bytes")->number(), 1000.0);
+  }
+}
+
+TEST(Program, WarnsOfAPrimaryThatNoBlendUses) {
+  const Folder folder;
+  std::string text = content(source() / "examples/specs/coaxial-cylinders.json");
+  const std::string before = "\"primaries\": {";
+  ASSERT_NE(text.find(before), std::string::npos);
+  text.insert(text.find(before) + before.size(), R"( "spare": { "kind": "sphere", "radius": 1 },)");
+  write(folder / "job.json", text);
+  const Outcome outcome = run_program("verify " + quoted_path(folder / "job.json"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("warning: /primaries/spare: is used by no blend"));
+  EXPECT_THAT(run_program("verify " + example("coaxial-cylinders")).err, IsEmpty());
 }
 
 TEST(Program, PrintsBothSchemas) {
@@ -99,7 +191,8 @@ TEST(Program, BuildsVerifiesAndSaysWhatItWrote) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("coaxial-cylinders.json: 1 blend, 2 seams, all within tolerance\n"),
-                    HasSubstr("reducer"), HasSubstr("read back"), HasSubstr("(AP242, ")));
+                    HasSubstr("reducer"), HasSubstr("read back"), HasSubstr("(AP242, "),
+                    HasSubstr(" coaxial-cylinders.obj, coaxial-cylinders.report.json")));
   EXPECT_THAT(folder.files(),
               testing::UnorderedElementsAre("out/coaxial-cylinders.step", "out/coaxial-cylinders.obj",
                                             "out/coaxial-cylinders.report.json"));
@@ -244,7 +337,8 @@ TEST(Program, SaysWhyAJobCannotBeRead) {
   for (const fs::path& job : {folder / "missing.json", folder.path()}) {
     const Outcome outcome = run_program("blend " + quoted_path(job) + " -o " + quoted_path(folder / "out"));
     EXPECT_EQ(outcome.code, 5);
-    EXPECT_THAT(outcome.err, HasSubstr(job.string() + ": "));
+    EXPECT_EQ(outcome.err.rfind(job.string() + ": ", 0), 0u) << outcome.err;
+    EXPECT_EQ(outcome.err.find(job.filename().string()), outcome.err.rfind(job.filename().string()));
     EXPECT_THAT(folder.files(), IsEmpty());
   }
 }

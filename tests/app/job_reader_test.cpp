@@ -221,6 +221,36 @@ TEST(JobReader, NamesLineAndColumnOfASyntaxError) {
   EXPECT_THAT(found[0].message, HasSubstr("line 2, column 14"));
 }
 
+TEST(JobReader, PointsAtTheCommaThatIsOneTooMany) {
+  const auto message = [](const std::string& text) {
+    const auto found = problems(text);
+    return found.size() == 1 ? found[0].message : std::to_string(found.size()) + " problems";
+  };
+  const std::string words = ": a comma before '}' or ']' is one too many";
+  EXPECT_EQ(message("{ \"a\": [1,\n 2 , ] }"), "line 2, column 4" + words);
+  EXPECT_EQ(message("{ \"a,\": 1, // a comment, with commas,\n /* , */ }"), "line 1, column 10" + words);
+  // Other mistakes keep their own words: a comma in a comment or a text is none.
+  for (const char* other : {"{ \"a\": [1 /*,*/ }", "{ \"a\", }", "{ \"a\": ]", "{ \"a\": [1, 2 }"})
+    EXPECT_THAT(message(other), testing::AllOf(HasSubstr("line 1, "), testing::Not(HasSubstr("too many"))))
+        << other;
+}
+
+TEST(JobReader, PrintsNamesInUtf8AndWhatIsNoneAsQuestionMarks) {
+  EXPECT_EQ(in_quotes("gr\xC3\xB6\xC3\x9F"
+                      "e \xE2\x82\xAC \xF0\x9F\x94\xA7"),
+            "\"gr\xC3\xB6\xC3\x9F"
+            "e \xE2\x82\xAC \xF0\x9F\x94\xA7\"");
+  EXPECT_EQ(in_quotes("a\x1b[31m\x7f\n"), "\"a?[31m??\"");
+  EXPECT_EQ(in_quotes("\xC2\x9B"
+                      "1m"),
+            "\"?1m\"");  // a terminal's escape as one character
+  // Overlong, half, surrogate, beyond the last code point.
+  for (const char* bad : {"\xC0\xAF", "\xC3", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xFF"})
+    EXPECT_EQ(in_quotes(bad), '"' + std::string(std::string_view(bad).size(), '?') + '"');
+  EXPECT_EQ(in_quotes("\xC3\xB6\xC3\xB6\xC3\xB6", 2), "\"\xC3\xB6\xC3\xB6...\"");  // never half a character
+  EXPECT_EQ(pointer_part("\xC3\xB6/~"), "\xC3\xB6~1~0");
+}
+
 TEST(JobReader, GivesUpOnAHundredProblemsWithACount) {
   std::string text = "{ \"blends\": 1";
   for (int i = 0; i < 150; ++i) text += ", \"zzz" + std::to_string(i) + "\": 1";

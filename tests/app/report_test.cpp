@@ -36,6 +36,26 @@ TEST(Report, HasClockReadingsOnlyWhenAsked) {
   EXPECT_NE(parse_json(report_json(result, nullptr, true)).find("times"), nullptr);
 }
 
+TEST(Report, DoesNotListItselfButEveryOtherFile) {
+  const JobResult result = example("coaxial-cylinders");
+  JobOutputs outputs;
+  outputs.files = {{"out/x.step", "step", 7}, {"out/x.report.json", "report", 0}};
+  const JsonValue report = parse_json(report_json(result, &outputs, false));
+  const auto& files = *report.find("files")->items();
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_EQ(*files[0].find("name")->text(), "x.step");
+  EXPECT_EQ(*files[0].find("bytes")->number(), 7.0);
+}
+
+TEST(Report, SaysWhichSidesWereNotMeasured) {
+  JobResult result = example("coaxial-cylinders");
+  result.blends[0].stages.back().seams[1].measured = false;
+  const JsonValue report = parse_json(report_json(result, nullptr, false));
+  const JsonValue& stage = report.find("blends")->items()->front().find("stages")->items()->back();
+  EXPECT_TRUE(*stage.find("from")->find("measured")->boolean());
+  EXPECT_FALSE(*stage.find("to")->find("measured")->boolean());
+}
+
 TEST(Report, IsTheSameBytesAgainAndOnOneThread) {
   const std::string first = report_json(example("open-blend"), nullptr, false);
   EXPECT_EQ(report_json(example("open-blend"), nullptr, false), first);

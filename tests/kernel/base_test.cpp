@@ -17,6 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(PlaceText, RoundsToTheResolutionWithoutExponent) {
+  EXPECT_EQ(place_text(1000.12345, 0.02), "1000.12");
+  EXPECT_EQ(place_text(1e6, 0.001), "1000000");
+  EXPECT_EQ(place_text(0.5, 0.001), "0.5");
+  EXPECT_EQ(place_text(-1e-9, 0.001), "0");
+  EXPECT_EQ(place_text(1234.5, 10.0), "1234");
+  EXPECT_EQ(place_text(0.1, 0.0), "0.1");
+  EXPECT_EQ(place_text(1e300, 1.0), "1e+300");
+  EXPECT_EQ(place_text(std::nan(""), 1.0), "nan");
+}
+
 TEST(NumberText, ReadsBackToTheSameDouble) {
   test::for_all([](test::Rng& rng) {
     const double x = std::ldexp(test::uniform(rng, -1.0, 1.0), test::integer(rng, -300, 300));

@@ -167,6 +167,22 @@ TEST(Shoot, MissesWhatTheLineDoesNotMeet) {
   EXPECT_TRUE(shoot(sphere(1.0), Vec3(0, 0.99, 0), Vec3::UnitX()));
 }
 
+TEST(Shoot, HitsThePoleOfASphereFromEverySeed) {
+  const Surface ball = sphere(2.0);
+  const SurfaceDomain box = ball.domain();
+  for (const double beside : {0.0, 1e-18, 1e-12, 1e-7, 1e-3}) {
+    const Vec3 q(0.0, beside, 5.0);
+    const Vec3 expected(0.0, beside, std::sqrt(4.0 - beside * beside));
+    const auto hit = shoot(ball, q, -Vec3::UnitZ());
+    ASSERT_TRUE(hit) << beside;
+    EXPECT_LE((hit->point - expected).norm(), 1e-11) << beside;  // 1e-12 of the size, which is 2 pi 2 at most
+    for (int i = 0; i < 100; ++i)
+      EXPECT_TRUE(
+          shoot(ball, q, -Vec3::UnitZ(), {box.u.at((i / 10 + 0.5) / 10), box.v.at((i % 10 + 0.5) / 10)}))
+          << beside << " seed " << i;
+  }
+}
+
 TEST(Shoot, FromAGuessFindsTheIntersectionBesideIt) {
   const auto far = shoot(sphere(1.0), Vec3(-3, 0.2, 0.1), Vec3::UnitX(), {0.0, 0.2});
   ASSERT_TRUE(far);

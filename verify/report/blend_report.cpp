@@ -1,5 +1,8 @@
 #include "verify/report/blend_report.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "verify/continuity/paired_seams.hpp"
 #include "verify/surface/sample_grid.hpp"
 
@@ -24,6 +27,22 @@ void check_surface(const BlendUnderTest& under_test, const VerifyOptions& option
   report.self_intersection = detail::self_intersection(grid);
 }
 
+/// Longest side of the box around a coarse grid of points; what is not a number does not count.
+double size_of(const Surface& surface) {
+  constexpr int cells = 8;
+  const SurfaceDomain domain = surface.domain();
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j) {
+      const Vec3 p =
+          surface.jet({domain.u.at(double(i) / double(cells)), domain.v.at(double(j) / double(cells))}).S;
+      if (!p.allFinite()) continue;
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  return std::max((high - low).maxCoeff(), 0.0);
+}
+
 }  // namespace
 
 BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, const VerifyOptions& options,
@@ -31,6 +50,7 @@ BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, 
   BlendReport report;
   report.name = blend.name;
   report.stage = stage;
+  report.size = size_of(blend.blend);
   report.seams = detail::check_paired_seams(blend.seams, options.seam, part(progress, 0, 2));
   if (blend.closed) report.closing = check_closing(blend.blend);
   report.surface_checked = options.surface_checks;

@@ -22,6 +22,8 @@ struct BlendUnderTest {
 struct BlendReport {
   std::string name;
   std::string stage;  ///< "formula", "fitted", "step"
+  double size =
+      0.0;  ///< of the blend: longest side of a box around it; places are told to a thousandth of it
   std::array<SeamReport, 2> seams;
   std::optional<ClosingReport> closing;  ///< closed blends
   bool surface_checked = true;           ///< false: the four below were not asked for and are empty
@@ -41,6 +43,9 @@ struct VerifyOptions {
 /// Measures everything. The same report for any number of threads.
 [[nodiscard]] BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage,
                                        const VerifyOptions& options = {}, const Progress& progress = {});
+
+/// "(1000.12, 0, -3)": a point as the tables and findings tell it, to a thousandth of the blend's size.
+[[nodiscard]] std::string place_text(const Vec3& point, double size, std::string_view separator = ", ");
 
 /// One row of the checks table: a named defect, found or not.
 struct Finding {

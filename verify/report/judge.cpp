@@ -32,17 +32,12 @@ std::string joined(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
-// Coordinates that are rounding beside the others read as 0.
-std::string point_text(const Vec3& p) {
-  const double size = p.lpNorm<Eigen::Infinity>();
-  const auto text = [&](double x) { return number_text(std::abs(x) <= 1e-9 * size ? 0.0 : x, 4); };
-  return joined({"(", text(p.x()), ", ", text(p.y()), ", ", text(p.z()), ")"});
+std::string place(const Case& c, double v, const Vec3& point) {
+  return joined({" at v = ", number_text(v, 4), " ", place_text(point, c.report.size)});
 }
-std::string place(double v, const Vec3& point) {
-  return joined({" at v = ", number_text(v, 4), " ", point_text(point)});
-}
-std::string place(UV at, const Vec3& point) {
-  return joined({" at u = ", number_text(at.u, 4), ", v = ", number_text(at.v, 4), " ", point_text(point)});
+std::string place(const Case& c, UV at, const Vec3& point) {
+  return joined({" at u = ", number_text(at.u, 4), ", v = ", number_text(at.v, 4), " ",
+                 place_text(point, c.report.size)});
 }
 
 // "angle 0.31 deg exceeds 0.001 deg"
@@ -61,7 +56,7 @@ void judge_deviation(const Case& c, Deviation SeamReport::*member, std::string_v
     const Deviation& d = seam.*member;
     const bool judged = c.asked[side] >= least || std::isnan(d.worst);
     if (judged && !(d.worst <= limit))
-      c.add(seam.name + ": " + exceeds(what, d.worst * factor, limit * factor, unit) + place(d.v, d.point),
+      c.add(seam.name + ": " + exceeds(what, d.worst * factor, limit * factor, unit) + place(c, d.v, d.point),
             true);
   }
 }
@@ -94,18 +89,19 @@ void judge_fold(const Case& c) {
     const Deviation& fold = seam.fold;
     // Without tangent planes in common, either direction is a proper sharp edge.
     if (std::isnan(fold.worst))
-      c.add(seam.name + ": the direction across the seam is not a number" + place(fold.v, fold.point), true);
+      c.add(seam.name + ": the direction across the seam is not a number" + place(c, fold.v, fold.point),
+            true);
     else if (c.asked[side] >= Continuity::G1 && fold.worst > 0.0)
       c.add(seam.name + ": the blend folds back over the kept part of the primary on " +
                 std::to_string(seam.folded) + " of " + std::to_string(seam.samples) + " samples, worst" +
-                place(fold.v, fold.point),
+                place(c, fold.v, fold.point),
             true);
   }
   if (c.report.surface_checked && c.report.fold.folded > 0) {
     const Extreme& where = c.report.fold.where;
     c.add(c.report.name + ": the normal turns over by " + number_text(where.value * degree, 3) +
               " deg (limit 90 deg) between neighbouring samples in " + std::to_string(c.report.fold.folded) +
-              " places, worst" + place(where.at, where.point),
+              " places, worst" + place(c, where.at, where.point),
           true);
   }
 }
@@ -118,7 +114,7 @@ void judge_transversality(const Case& c) {
     const std::string value =
         std::isnan(d.worst) ? "is not a number" : number_text(d.worst, 3) + " is below 0.1";
     c.add(seam.name + ": sine of the angle between the blend's direction and the trimline " + value +
-              place(d.v, d.point),
+              place(c, d.v, d.point),
           std::isnan(d.worst));
   }
 }
@@ -126,7 +122,8 @@ void judge_transversality(const Case& c) {
 void judge_closing(const Case& c) {
   if (!c.report.closing) return;
   const ClosingReport& closing = *c.report.closing;
-  const std::string where = joined({" at u = ", number_text(closing.u, 4), " ", point_text(closing.point)});
+  const std::string where =
+      joined({" at u = ", number_text(closing.u, 4), " ", place_text(closing.point, c.report.size)});
   const auto add = [&](std::string_view what, double value, double limit, double factor,
                        const std::string& unit, bool asked) {
     if ((asked || std::isnan(value)) && !(value <= limit))
@@ -145,19 +142,20 @@ void judge_degenerate(const Case& c) {
   if (!c.report.surface_checked || area.value > limit) return;
   const std::string value =
       std::isnan(area.value) ? "is not a number" : number_text(area.value, 3) + " is below 1e-09";
-  c.add(c.report.name + ": no normal, |Su x Sv| relative to its mean " + value + place(area.at, area.point),
-        true);
+  c.add(
+      c.report.name + ": no normal, |Su x Sv| relative to its mean " + value + place(c, area.at, area.point),
+      true);
 }
 
 void judge_radius(const Case& c) {
   if (!c.report.surface_checked) return;
   const Extreme& r = c.report.minimum_radius;
   if (std::isnan(r.value))
-    c.add(c.report.name + ": minimum radius is not a number" + place(r.at, r.point), true);
+    c.add(c.report.name + ": minimum radius is not a number" + place(c, r.at, r.point), true);
   else if (std::isfinite(r.value))
-    c.add(
-        c.report.name + ": minimum radius " + number_text(r.value, 3) + " " + c.length + place(r.at, r.point),
-        false);
+    c.add(c.report.name + ": minimum radius " + number_text(r.value, 3) + " " + c.length +
+              place(c, r.at, r.point),
+          false);
 }
 
 void judge_penetration(const Case& c) {
@@ -170,7 +168,7 @@ void judge_penetration(const Case& c) {
             false);
     else if (!(depth.value <= c.tolerance.position))
       c.add(name + ": " + exceeds("penetration of the primary", depth.value, c.tolerance.position, c.length) +
-                place(depth.at, depth.point),
+                place(c, depth.at, depth.point),
             true);
   }
 }
@@ -180,12 +178,12 @@ void judge_self_intersection(const Case& c) {
   if (!c.report.surface_checked || (pairs == 0 && !std::isnan(where.value))) return;
   if (std::isnan(where.value))
     c.add(c.report.name + ": self-intersection unknown, the surface is not a number" +
-              place(where.at, where.point),
+              place(c, where.at, where.point),
           true);
   else
     c.add(c.report.name + ": the blend passes through itself, " + std::to_string(pairs) +
               " pairs of triangles, deepest " + number_text(where.value, 3) + " " + c.length +
-              place(where.at, where.point) + " and at u = " + number_text(other.u, 4) +
+              place(c, where.at, where.point) + " and at u = " + number_text(other.u, 4) +
               ", v = " + number_text(other.v, 4),
           true);
 }
@@ -220,6 +218,13 @@ std::vector<Finding> judge(const BlendReport& report, const std::array<Continuit
   for (const Check& check : checks)
     check.run({report, asked, tolerance, length, "1/" + length, check.info.name, findings});
   return findings;
+}
+
+std::string place_text(const Vec3& point, double size, std::string_view separator) {
+  // Rounding of the coordinates themselves is no place, however small the blend.
+  const double resolution = std::max(1e-3 * size, 1e-12 * point.cwiseAbs().maxCoeff());
+  return joined({"(", place_text(point.x(), resolution), separator, place_text(point.y(), resolution),
+                 separator, place_text(point.z(), resolution), ")"});
 }
 
 std::vector<CheckInfo> checks_table() {
