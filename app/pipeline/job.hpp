@@ -40,10 +40,10 @@ struct TrimlineSpec {
   enum class Kind { isoline, parameters, projected, edge, edge_chain } kind = Kind::isoline;
   IsoDirection direction = IsoDirection::constant_u;  ///< isoline
   double value = 0.0;                                 ///< isoline
-  std::optional<Interval> range{};                      ///< isoline
-  CurveSpec curve{};                                    ///< parameters, projected
-  std::optional<Vec3> along{};                          ///< projected: direction; empty: closest point
-  EdgeSelector edge{};                                  ///< edge, edge_chain
+  std::optional<Interval> range{};                    ///< isoline
+  CurveSpec curve{};                                  ///< parameters, projected
+  std::optional<Vec3> along{};                        ///< projected: direction; empty: closest point
+  EdgeSelector edge{};                                ///< edge, edge_chain
 };
 
 struct BlendSideEntry {
