@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "kernel/brep/occt_geometry.hpp"
+#include "kernel/brep/parameter_curves.hpp"
+#include "kernel/brep/travel.hpp"
 #include "kernel/geometry/spline_interpolation.hpp"
 
 namespace blendwright::detail {
@@ -130,21 +132,25 @@ void lay_on_surface(BoundaryLine& line, const PrimaryGeometry& plain, double tol
     const Vec2 uv = line.jet(t).C();
     return vec(surface->Value(uv.x(), uv.y()));
   };
-  for (const int spans : {32, 128, 512}) {
-    std::vector<Vec3> points;
-    std::vector<double> at;
-    for (int i = 0; i <= spans; ++i) {
-      at.push_back(line.t.at(static_cast<double>(i) / spans));
-      points.push_back(image(at.back()));
-    }
-    const BSplineCurve<3> curve = interpolate_points<3>(points, at, false, 5);
+  for (const int spans : {8, 32, 128, 512}) {  // per smooth interval
+    std::vector<BSplineCurve<3>> pieces;
     double gap = 0.0;
-    for (int i = 0; i < spans; ++i) {
-      const double t = line.t.at((i + 0.5) / spans);
-      gap = std::max(gap, (curve.jet(t).C() - image(t)).norm());
+    for (std::size_t k = 0; k + 1 < line.breaks.size(); ++k) {
+      const Interval part{line.breaks[k], line.breaks[k + 1]};
+      std::vector<Vec3> points;
+      std::vector<double> at;
+      for (int i = 0; i <= spans; ++i) {
+        at.push_back(part.at(static_cast<double>(i) / spans));
+        points.push_back(image(at.back()));
+      }
+      pieces.push_back(interpolate_points<3>(points, at, false, 5));
+      for (int i = 0; i < spans; ++i) {
+        const double t = part.at((i + 0.5) / spans);
+        gap = std::max(gap, (pieces.back().jet(t).C() - image(t)).norm());
+      }
     }
     if (gap > 0.1 * tolerance) continue;
-    line.curve = to_occt(curve);
+    line.curve = to_occt(joined(pieces, false));
     line.gap = gap;
     return;
   }
@@ -197,6 +203,18 @@ bool sound(const PrimaryGeometry& g, const TrimRegion& region, bool borders_allo
 
 }  // namespace
 
+CutPcurve boundary_pcurve(const BoundaryLine& line, const PrimaryGeometry& g, const Vec2& shift,
+                          const Interval& range, double tolerance) {
+  const auto jet = [&](double t) {
+    CurveJet<2> j = line.jet(t);
+    j.D[0] += g.shift + shift;
+    return j;
+  };
+  return cut_pcurve(jet, range, refined(line.breaks, std::max<std::size_t>(4, 64 / line.breaks.size())),
+                    handle<Geom_Curve>::DownCast(line.curve->Transformed(g.placement)), g.geometry,
+                    0.05 * tolerance, line.breaks);
+}
+
 DividedPrimary divide_primary(const PrimaryGeometry& plain, const CutsOn& trimlines, double tolerance) {
   const auto by_box = [&] {
     return *best_division(plain, plain.box, tolerance, trimlines,
@@ -222,7 +240,7 @@ DividedPrimary divide_primary(const PrimaryGeometry& plain, const CutsOn& trimli
         [](const PrimaryGeometry&, const TrimRegion&) { return true; });
 
   Lines all, inside;  // edges that stay, and those of them not on the border of the box
-  bool crossed = false, crossed_inside = false, precise = true;
+  bool crossed = false, crossed_inside = false, precise = true, precise_inside = true;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     BoundaryLine line = plain.boundary->lines[i];
     if (on_trimlines.covers(edges[i])) continue;
@@ -230,7 +248,10 @@ DividedPrimary divide_primary(const PrimaryGeometry& plain, const CutsOn& trimli
     if (stay == Stays::none) continue;
     const bool border = on_border(line, plain.box);
     lay_on_surface(line, plain, tolerance);
-    precise = precise && (border || line.gap <= tolerance);
+    const bool close = line.gap <= tolerance &&
+                       boundary_pcurve(line, plain, Vec2::Zero(), line.t, tolerance).gap <= tolerance;
+    precise = precise && close;
+    precise_inside = precise_inside && (border || close);
     all.push_back(line);
     if (!border) inside.push_back(line);
     crossed = crossed || stay == Stays::part;
@@ -254,7 +275,7 @@ DividedPrimary divide_primary(const PrimaryGeometry& plain, const CutsOn& trimli
   };
   std::optional<DividedPrimary> found;
   if (precise && !crossed) found = divide(all, around(plain), false);
-  if (precise && !found && !crossed_inside) found = divide(inside, plain.box, true);
+  if (precise_inside && !found && !crossed_inside) found = divide(inside, plain.box, true);
   if (found) return *found;
   DividedPrimary boxed = by_box();
   boxed.loses = true;

@@ -3,11 +3,16 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/brep/cut_pcurve.hpp"
 #include "kernel/brep/face_boundary.hpp"
 #include "kernel/brep/primary_geometry.hpp"
 #include "kernel/brep/trim_region.hpp"
 
 namespace blendwright::detail {
+
+/// The parameter curve of a stretch of an edge of the face.
+[[nodiscard]] CutPcurve boundary_pcurve(const BoundaryLine& line, const PrimaryGeometry& g, const Vec2& shift,
+                                        const Interval& range, double tolerance);
 
 /// Cuts of a primary in the parameters of a geometry, which depend on where its seams are.
 using CutsOn = std::function<std::vector<RegionCut>(const PrimaryGeometry&)>;

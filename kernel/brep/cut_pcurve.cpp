@@ -86,7 +86,8 @@ std::vector<double> thinned(const Interval& range, const std::vector<double>& br
 
 CutPcurve cut_pcurve(const std::function<CurveJet<2>(double)>& cut, const Interval& range,
                      const std::vector<double>& breaks, const opencascade::handle<Geom_Curve>& edge,
-                     const opencascade::handle<Geom_Surface>& surface, double slack) {
+                     const opencascade::handle<Geom_Surface>& surface, double slack,
+                     const std::vector<double>& own_corners) {
   const Gap gap(range, breaks, edge, surface);
   const double own = gap([&](double v) { return cut(v).C(); });
   const Vec2 a = cut(range.lo).C(), b = cut(range.hi).C();
@@ -96,8 +97,14 @@ CutPcurve cut_pcurve(const std::function<CurveJet<2>(double)>& cut, const Interv
   if (best_gap > own + 1e-3 * slack) {  // a line that is only nearly one is worth a spline
     std::vector<double> corners = surface_kinks(
         surface, [&](double v) { return cut(v).C(); }, range);
-    corners.insert(corners.begin(), range.lo);
-    corners.push_back(range.hi);
+    corners.insert(corners.end(), own_corners.begin(), own_corners.end());
+    const double least = 1e-6 * range.length();
+    std::erase_if(corners, [&](double v) { return v < range.lo + least || v > range.hi - least; });
+    corners.insert(corners.end(), {range.lo, range.hi});
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end(),
+                              [&](double lower, double upper) { return upper - lower < least; }),
+                  corners.end());
     for (const int stride : {8, 4, 2, 1, -2, -4, -8}) {
       std::vector<BSplineCurve<2>> pieces;
       for (std::size_t i = 0; i + 1 < corners.size(); ++i)

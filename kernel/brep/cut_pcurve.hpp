@@ -19,10 +19,12 @@ struct CutPcurve {
 /// speed, else its quintic spline, refined until it adds at most `slack` to the distance that the cut itself
 /// has from the edge.
 /// @param cut     the trimline in the parameters of G, with derivatives
+/// @param corners where the cut itself is not smooth, beside knots of the surface; ends allowed
 /// @param breaks  where the edge's own polynomial pieces meet
 [[nodiscard]] CutPcurve cut_pcurve(const std::function<CurveJet<2>(double)>& cut, const Interval& range,
                                    const std::vector<double>& breaks,
                                    const opencascade::handle<Geom_Curve>& edge,
-                                   const opencascade::handle<Geom_Surface>& surface, double slack);
+                                   const opencascade::handle<Geom_Surface>& surface, double slack,
+                                   const std::vector<double>& corners = {});
 
 }  // namespace blendwright::detail

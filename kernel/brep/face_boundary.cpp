@@ -1,6 +1,8 @@
 #include "kernel/brep/face_boundary.hpp"
 
 #include <BRep_Tool.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
 #include <cmath>
@@ -16,14 +18,16 @@ using opencascade::handle;
 /// Parameters of a surface along a curve that lies on it.
 class ParameterImage {
  public:
+  /// The image's middle is taken next to `near`.
   ParameterImage(handle<Geom_Surface> surface, handle<Geom_Curve> curve, handle<Geom2d_Curve> guess,
-                 const Interval& t)
+                 const Interval& t, const Vec2& near)
       : surface_(std::move(surface)), curve_(std::move(curve)), guess_(std::move(guess)), t_(t) {
-    Vec2 near = at(t_.middle());
     for (std::size_t i = 0; i <= steps; ++i) {
-      near = wrapped(at(t_.at(static_cast<double>(i) / steps)), near);
-      table_.push_back(near);
+      const Vec2 uv = at(t_.at(static_cast<double>(i) / steps));
+      table_.push_back(i == 0 ? uv : wrapped(uv, table_.back()));
     }
+    const Vec2 middle = table_[steps / 2], shift = wrapped(middle, near) - middle;
+    for (Vec2& uv : table_) uv += shift;
   }
 
   [[nodiscard]] CurveJet<2> operator()(double t) const {
@@ -71,6 +75,13 @@ class ParameterImage {
   std::vector<Vec2> table_;
 };
 
+std::vector<double> smooth_intervals(const handle<Geom_Curve>& curve, const Interval& t) {
+  const GeomAdaptor_Curve adaptor(curve, t.lo, t.hi);
+  TColStd_Array1OfReal at(1, adaptor.NbIntervals(GeomAbs_C3) + 1);
+  adaptor.Intervals(at, GeomAbs_C3);
+  return {at.begin(), at.end()};
+}
+
 bool material_left(const TopoDS_Face& face, const TopoDS_Edge& edge) {
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
     if (e.Current().IsSame(edge)) return e.Current().Orientation() == TopAbs_FORWARD;
@@ -90,7 +101,9 @@ FaceBoundary face_boundary(const StepPart::Impl& part, const std::set<std::size_
     if (line.curve.IsNull() || (guess.IsNull() && !elementary_parameters(carrier.geometry, Vec3::Zero())))
       continue;
     line.t = {a, b};
-    const ParameterImage image(carrier.geometry, line.curve, guess, line.t);
+    line.breaks = smooth_intervals(line.curve, line.t);
+    const ParameterImage image(carrier.geometry, line.curve, guess, line.t,
+                               {carrier.box.u.middle(), carrier.box.v.middle()});
     line.jet = image;
     line.kept_left = material_left(part.face(face), part.edge(edge)) != carrier.reversed;
     for (int i = 0; i <= 64; ++i) {

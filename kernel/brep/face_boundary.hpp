@@ -19,7 +19,8 @@ struct BoundaryLine {
   Interval t;
   std::function<CurveJet<2>(double)> jet;  ///< parameters of the geometry at curve(t), not wrapped
   bool kept_left = true;                   ///< of growing t, in those parameters
-  double gap = 0.0;                        ///< largest distance from the curve to its image on the surface
+  std::vector<double> breaks;  ///< t where the curve has less than three derivatives, both ends included
+  double gap = 0.0;            ///< largest distance from the curve to its image on the surface
 };
 
 struct FaceBoundary {

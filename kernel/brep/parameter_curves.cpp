@@ -2,12 +2,13 @@
 
 namespace blendwright::detail {
 
-BSplineCurve<2> joined(const std::vector<BSplineCurve<2>>& pieces, bool closed) {
+template <int Dim>
+BSplineCurve<Dim> joined(const std::vector<BSplineCurve<Dim>>& pieces, bool closed) {
   std::vector<double> breaks;
   std::vector<int> mults;
-  std::vector<Vec2> control;
+  std::vector<typename BSplineCurve<Dim>::Point> control;
   const int degree = pieces.front().basis().degree();
-  for (const BSplineCurve<2>& p : pieces) {
+  for (const BSplineCurve<Dim>& p : pieces) {
     const bool first = breaks.empty();
     if (!first) {
       breaks.pop_back();
@@ -25,5 +26,8 @@ BSplineCurve<2> joined(const std::vector<BSplineCurve<2>>& pieces, bool closed) 
   }
   return {BSplineBasis(degree, std::move(breaks), std::move(mults), closed), std::move(control)};
 }
+
+template BSplineCurve<2> joined(const std::vector<BSplineCurve<2>>&, bool);
+template BSplineCurve<3> joined(const std::vector<BSplineCurve<3>>&, bool);
 
 }  // namespace blendwright::detail

@@ -32,7 +32,8 @@ struct WindingSpline {
   [[nodiscard]] CurveDomain domain() const { return spline.domain(); }
 };
 
-/// Clamped pieces one after the other as one spline, with C0 knots between them.
-[[nodiscard]] BSplineCurve<2> joined(const std::vector<BSplineCurve<2>>& pieces, bool closed);
+/// Clamped pieces one after the other as one spline, with C0 knots between them; of dimension 2 or 3.
+template <int Dim>
+[[nodiscard]] BSplineCurve<Dim> joined(const std::vector<BSplineCurve<Dim>>& pieces, bool closed);
 
 }  // namespace blendwright::detail

@@ -88,15 +88,11 @@ detail::PieceEdge boundary_edge(const PreparedPrimary& p, const detail::CutPiece
   const detail::BoundaryLine& line = p.divided.lines[piece.cut - p.patch->cuts.size()];
   const PrimaryGeometry& g = p.divided.geometry;
   const auto curve = opencascade::handle<Geom_Curve>::DownCast(line.curve->Transformed(g.placement));
-  std::vector<double> breaks;
-  for (int i = 0; i <= 64; ++i) breaks.push_back(line.t.at(i / 64.0));
-  const auto pcurve = detail::cut_pcurve(
-      [&](double t) {
-        CurveJet<2> j = line.jet(t);
-        j.D[0] += g.shift + piece.shift;
-        return j;
-      },
-      piece.v, breaks, curve, g.geometry, 0.05 * tolerance);
+  const auto pcurve = detail::boundary_pcurve(line, g, piece.shift, piece.v, tolerance);
+  if (!(pcurve.gap <= tolerance))
+    throw GeometryError("primary " + p.patch->name + ": an edge of its face lies " +
+                        scientific_text(pcurve.gap) + " from its curve on the face, must be within " +
+                        scientific_text(tolerance) + "; allow more");
   const auto vertex = [&](double t) { return pool.at(detail::vec(curve->Value(t)), 10.0 * tolerance); };
   return {detail::make_edge(curve, piece.v, vertex(piece.v.lo), vertex(piece.v.hi)), pcurve.curve};
 }

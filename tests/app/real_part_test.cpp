@@ -29,6 +29,8 @@ void expect_reached(JobSpec job, const std::string& name) {
       EXPECT_LE(seam.curvature.worst, 1e-4);
     }
   }
+  for (const std::string& w : result.warnings)
+    EXPECT_EQ(w.find("not carried over"), std::string::npos) << w;  // faces keep their own edges
   ASSERT_TRUE(outputs.step.has_value());
   EXPECT_TRUE(outputs.step->check.valid);
   EXPECT_EQ(outputs.step->check.unexpected_free_edges, 0u);
