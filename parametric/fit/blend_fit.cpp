@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
 #include "parametric/fit/boundary_fit.hpp"
 #include "parametric/fit/cardinal_fit.hpp"
@@ -185,10 +186,27 @@ void require_smooth_closing(const OdeBlend& blend) {
   }
 }
 
+// The knots of stiff blends lie as close as 0.07/q, those near u = 1 are written to STEP with 13 digits:
+// 1e-13 is then 1/700 of the smallest span. From q = 1e12 on knots coincide and readers drop the face.
+constexpr double largest_stiffness = 1e9;
+
+void require_visible_layers(const OdeBlend& blend) {
+  for (int x = 0; x < 3; ++x) {
+    const double q = blend.basis(x).stiffness();
+    if (q <= largest_stiffness) continue;
+    throw GeometryError(
+        "the blend is too stiff for a B-spline surface: its largest root is q = " + number_text(q, 4) +
+        " along " + "xyz"[x] + ", so that its boundary layers, 1/q of the way " +
+        "across, are thinner than the knots of a STEP file keep; the largest q is " +
+        number_text(largest_stiffness));
+  }
+}
+
 }  // namespace
 
 BlendFit fit_blend(const OdeBlend& blend, const BlendFitOptions& options, const Progress& progress) {
   check(options);
+  require_visible_layers(blend);
   require_smooth_closing(blend);
   return blend.separable() ? fit_separable(blend, options, progress) : fit_tensor(blend, options, progress);
 }

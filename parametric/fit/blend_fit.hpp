@@ -44,7 +44,8 @@ struct BlendFit {
 };
 
 /// Throws InputError when a tolerance is not positive, GeometryError when a closed blend has a corner at its
-/// seam, ConvergenceError when max_control_points do not suffice; says what was reached.
+/// seam and when a root of the sweep equation exceeds 1e9 (boundary layers thinner than the knots of a STEP
+/// file keep), ConvergenceError when max_control_points do not suffice; says what was reached.
 [[nodiscard]] BlendFit fit_blend(const OdeBlend& blend, const BlendFitOptions& options,
                                  const Progress& progress = {});
 

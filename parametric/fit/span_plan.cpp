@@ -39,7 +39,8 @@ std::vector<double> with_limited_ratio(std::vector<double> t, bool periodic) {
 double graded_amount(double q, double u) {
   const double a = q / 6.0;
   if (a < 1e-8) return 2.0 * (q + 1.0) * u + 0.5 * u;
-  return (q + 1.0) / a * (-std::expm1(-a * u) + std::exp(-a) * std::expm1(a * u)) + 0.5 * u;
+  // No power of e grows, so that no q overflows.
+  return (q + 1.0) / a * -std::expm1(-a * u) * (1.0 + std::exp(-a * (1.0 - u))) + 0.5 * u;
 }
 
 }  // namespace

@@ -78,6 +78,28 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+TEST(Export, OfStiffBlendsReadsBackAsTheyAre) {
+  // 4259 is where exp(q/6) overflows; at 1e7 the thinnest knot span is 2e-8.
+  for (const double q : {2500.0, 4300.0, 6000.0, 1e7}) {
+    SCOPED_TRACE(q);
+    JobSpec job = example_job("coaxial-cylinders");
+    for (BlendSideEntry& side : job.blends.at(0).sides) side.side.continuity = Continuity::G1;
+    job.blends.at(0).shape.repeated_root = q;
+    job.output.formats = {OutputFormat::step};
+    JobResult result = run_job(job);
+    const test::TemporaryFolder folder("stiff");
+    const JobOutputs outputs = write_outputs(result, {.folder = folder.path()});
+    ASSERT_EQ(result.blends.at(0).stages.size(), 3u);
+    expect_goal(result.blends.at(0).stages[2], {"coaxial-cylinders", false});
+    ASSERT_TRUE(outputs.step.has_value());
+    EXPECT_TRUE(outputs.step->check.valid);
+  }
+  JobSpec job = example_job("coaxial-cylinders");
+  for (BlendSideEntry& side : job.blends.at(0).sides) side.side.continuity = Continuity::G1;
+  job.blends.at(0).shape.repeated_root = 2e9;
+  EXPECT_THROW((void)run_job(job), GeometryError);
+}
+
 TEST(Outputs, AreTheSameBytesOnAnyNumberOfThreads) {
   ::setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
   std::vector<std::string> first;

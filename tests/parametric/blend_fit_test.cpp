@@ -265,6 +265,30 @@ TEST(BlendFit, SaysWhatItReachedWhenTheNetIsTooSmall) {
     }
 }
 
+TEST(BlendFit, OfStiffBlendsKeepsItsBoundUntilLayersAreTooThinForSTEP) {
+  // exp(-q/6) and exp(q/6) leave the range of doubles at q = 4259.
+  for (const double q : {2500.0, 4250.0, 4300.0, 6000.0, 1e6, 1e9}) {
+    const OdeBlend blend = joint(isotropic(q));
+    const BlendFit fit = fit_blend(blend, {});
+    EXPECT_LE(fit.report.position_bound, 1e-7) << q;
+    const std::vector<double>& breaks = fit.surface.basis_u().breaks();
+    double least = 1.0;
+    for (std::size_t i = 1; i < breaks.size(); ++i) least = std::min(least, breaks[i] - breaks[i - 1]);
+    EXPECT_GT(least, 0.01 / q);
+    // The bound with a rounding of 1e-15, in the layers and between.
+    for (const double u : {0.0, 0.3 / q, 1.0 / q, 5.0 / q, 30.0 / q, 0.5, 1.0 - 1.0 / q, 1.0})
+      for (const double v : {0.1, 2.3, 4.4})
+        EXPECT_LE((fit.surface.jet({u, v}).S - blend.jet({u, v}).S).norm(), 1.0001e-7) << q << " " << u;
+  }
+  try {
+    (void)fit_blend(joint(isotropic(2e9)), {});
+    FAIL() << "was accepted";
+  } catch (const GeometryError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("q = 2e+09"));
+    EXPECT_THAT(e.what(), testing::HasSubstr("the largest q is 1e+09"));
+  }
+}
+
 TEST(BlendFit, RefusesTolerancesThatAreNotPositive) {
   const OdeBlend blend = joint(isotropic(1.0));
   EXPECT_THROW((void)fit_blend(blend, {.position = 0.0}), InputError);
@@ -299,10 +323,16 @@ double largest_neighbour_ratio(const std::vector<double>& t) {
 }
 
 TEST(SpanPlan, GradedBreaksAreSymmetricAndGatherInTheLayers) {
-  for (double q : {0.0, 1e-9, 1.0, 20.0, 1000.0})
+  for (double q : {0.0, 1e-9, 1.0, 20.0, 1000.0, 4300.0, 6000.0, 1e9})
     for (int n : {1, 2, 7, 40}) {
       const std::vector<double> t = detail::graded_breaks(q, n);
       EXPECT_TRUE(std::is_sorted(t.begin(), t.end()));
+      // With 40 spans the layers take about 20 each; a span at the border is about 6/(20 q).
+      if (n == 40 && q >= 1000.0) {
+        EXPECT_GT(t[1], 0.05 / q);
+        EXPECT_LT(t[1], 1.0 / q);
+        EXPECT_GT(t[t.size() / 2], 0.25);
+      }
       EXPECT_EQ(t.front(), 0.0);
       EXPECT_EQ(t.back(), 1.0);
       EXPECT_GE(static_cast<int>(t.size()), n + 1);
