@@ -381,7 +381,7 @@ TEST(JobReader, AnswersMutatedJobsWithAJobOrAnInputError) {
   ASSERT_GE(texts.size(), 10u);
   std::size_t refused = 0, read = 0;
   Rng rng(20240521);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < bounded(3000); ++i) {
     const std::string text =
         mutated(texts[static_cast<std::size_t>(integer(rng, 0, static_cast<int>(texts.size()) - 1))], rng);
     try {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 namespace blendwright::test {
 
@@ -30,10 +31,13 @@ inline int integer(Rng& rng, int lo, int hi) {
   return lo + static_cast<int>(rng.next() % static_cast<std::uint64_t>(hi - lo + 1));
 }
 
+/// `cases`, or ten times as many when BLENDWRIGHT_LONG is set (./dev long).
+inline int bounded(int cases) { return std::getenv("BLENDWRIGHT_LONG") ? 10 * cases : cases; }
+
 /// Runs `property(rng)` for `cases` fixed seeds; a failure prints its seed and stops the loop.
 template <class Property>
 void for_all(Property property, int cases = 200) {
-  for (int seed = 1; seed <= cases; ++seed) {
+  for (int seed = 1; seed <= bounded(cases); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Rng rng(static_cast<std::uint64_t>(seed));
     property(rng);
