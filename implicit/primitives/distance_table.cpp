@@ -1,0 +1,8 @@
+#include "implicit/scene/node.hpp"
+
+namespace blendwright {
+
+std::span<const NodeKind> profile_kinds() { return {}; }
+std::span<const NodeKind> distance_kinds() { return {}; }
+
+}  // namespace blendwright
