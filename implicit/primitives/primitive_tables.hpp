@@ -1,0 +1,21 @@
+#pragma once
+// The rows of this folder's families, group by group; distance_kinds() joins them in this order.
+#include "implicit/scene/node.hpp"
+
+namespace blendwright::detail {
+
+[[nodiscard]] std::span<const NodeKind> plane_kinds();           // plane, half_space, slab
+[[nodiscard]] std::span<const NodeKind> superellipsoid_kinds();  // lp_metric, superquadric, asymmetric_...
+[[nodiscard]] std::span<const NodeKind> generalized_kinds();     // generalized_distance
+[[nodiscard]] std::span<const NodeKind> skeleton_kinds();        // segment_skeleton, capsule_gauge
+[[nodiscard]] std::span<const NodeKind> sweep_kinds();  // polar_bar, sweep_line, sweep_arc, sweep_curve
+
+/// What emit of a primitive does: one step with this body.
+template <class Body>
+[[nodiscard]] std::function<StepIndex(TapeBuilder&, const Frame&)> emit_body(Body body) {
+  return [shared = std::make_shared<const Body>(std::move(body))](TapeBuilder& tape, const Frame& frame) {
+    return tape.add<Body>(shared, frame, {});
+  };
+}
+
+}  // namespace blendwright::detail
