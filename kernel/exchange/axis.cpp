@@ -51,8 +51,8 @@ double Axis::position(double value) const {
   return std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
 }
 
-Range range_of(const std::vector<double>& values) {
-  Range range;
+ValueRange range_of(const std::vector<double>& values) {
+  ValueRange range;
   bool first = true;
   for (const double v : values) {
     if (!std::isfinite(v)) continue;
@@ -64,7 +64,7 @@ Range range_of(const std::vector<double>& values) {
   return range;
 }
 
-Axis linear_axis(const Range& range, int ticks, bool fitted) {
+Axis linear_axis(const ValueRange& range, int ticks, bool fitted) {
   double lo = range.least, hi = range.most;
   const double size = std::max(std::abs(lo), std::abs(hi));
   if (hi - lo <= 1e-9 * size || size == 0.0) {  // a constant: a scale around it
@@ -83,7 +83,7 @@ Axis linear_axis(const Range& range, int ticks, bool fitted) {
   return axis;
 }
 
-Axis log_axis(const Range& range, int decades, int ticks) {
+Axis log_axis(const ValueRange& range, int decades, int ticks) {
   const double most = std::max(range.most, 10.0 * log_floor);
   const double least = std::clamp(range.least_positive, log_floor, most);
   const double hi = std::ceil(std::log10(most) - 1e-9);

@@ -23,15 +23,15 @@ struct Axis {
 /// Three digits: "0.25", "120", "10^-6", "2.5x10^-8".
 [[nodiscard]] std::string quantity_text(double value);
 
-struct Range {
+struct ValueRange {
   double least = 0.0, most = 0.0;  ///< of the finite values; 0, 0 when there are none
   double least_positive = 0.0;     ///< 0 when there is none
 };
-[[nodiscard]] Range range_of(const std::vector<double>& values);
+[[nodiscard]] ValueRange range_of(const std::vector<double>& values);
 
 /// `fitted`: ends at the range, not at the next tick.
-[[nodiscard]] Axis linear_axis(const Range& range, int ticks, bool fitted = false);
+[[nodiscard]] Axis linear_axis(const ValueRange& range, int ticks, bool fitted = false);
 /// Whole decades, at most `decades` of them, none below 1e-16 (rounding of numbers of order 1).
-[[nodiscard]] Axis log_axis(const Range& range, int decades, int ticks);
+[[nodiscard]] Axis log_axis(const ValueRange& range, int decades, int ticks);
 
 }  // namespace blendwright

@@ -80,13 +80,13 @@ void Canvas::triangle(const Vec2& a, const Vec2& b, const Vec2& c, const Colour&
   colours_.push_back(colour);
 }
 
-void Canvas::fill(const Box& b, const Colour& colour) {
+void Canvas::fill(const PixelBox& b, const Colour& colour) {
   const Vec2 p(b.left, b.bottom), q(b.right, b.bottom), r(b.right, b.top), s(b.left, b.top);
   triangle(p, q, r, colour);
   triangle(p, r, s, colour);
 }
 
-void Canvas::frame(const Box& b, const Colour& colour, double width) {
+void Canvas::frame(const PixelBox& b, const Colour& colour, double width) {
   line({{b.left, b.bottom}, {b.right, b.bottom}, {b.right, b.top}, {b.left, b.top}, {b.left, b.bottom}},
        colour, width);
 }

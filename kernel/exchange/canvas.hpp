@@ -27,7 +27,7 @@ struct TextStyle {
   Colour colour{0.13, 0.13, 0.13};
 };
 
-struct Box {
+struct PixelBox {
   double left = 0.0, bottom = 0.0, right = 0.0, top = 0.0;
   [[nodiscard]] double width() const { return right - left; }
   [[nodiscard]] double height() const { return top - bottom; }
@@ -36,8 +36,8 @@ struct Box {
 class Canvas {
  public:
   Canvas();
-  void fill(const Box& box, const Colour& colour);
-  void frame(const Box& box, const Colour& colour, double width);
+  void fill(const PixelBox& box, const Colour& colour);
+  void frame(const PixelBox& box, const Colour& colour, double width);
   /// Round joints and ends; `dash` > 0: dashes and gaps of that length. A point with a NaN interrupts the
   /// line.
   void line(const std::vector<Vec2>& points, const Colour& colour, double width, double dash = 0.0);

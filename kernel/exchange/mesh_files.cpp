@@ -64,14 +64,20 @@ void fail_reading(const std::filesystem::path& file, const std::string& why) {
   throw IoError(file.string() + ": cannot be read (" + why + ")");
 }
 
-TriMesh read_mesh(const std::filesystem::path& file) {
+std::string lower_case_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+TriMesh read_mesh(const std::filesystem::path& file) {
+  const std::string extension = lower_case_extension(file);
   if (extension == ".vtp") return read_vtp(file);
   if (extension == ".stl") return read_stl(file);
   if (extension == ".obj") return read_obj(file);
-  fail_reading(file, "the extension is \"" + extension + "\", must be .vtp, .stl or .obj");
+  if (extension == ".ply") return read_ply(file);
+  fail_reading(file, "the extension is \"" + extension + "\", must be .vtp, .stl, .obj or .ply");
 }
 
 }  // namespace blendwright

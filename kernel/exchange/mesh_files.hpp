@@ -4,13 +4,15 @@
 // that does not fit its points; a coordinate that is not finite). The same mesh gives the same bytes.
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "kernel/mesh/mesh.hpp"
 
 namespace blendwright {
 
 /// Points, normals and columns as 64-bit floats: nothing is rounded. A column's unit is its array's
-/// UNITS_LABEL, the mesh's name the field data "name".
+/// UNITS_LABEL, its labels the field data "<column> labels", the mesh's name the field data "name". Without
+/// triangles each point is a vertex cell, so that viewers show it.
 void write_vtp(const std::filesystem::path& file, const TriMesh& mesh);
 /// One cell per line, with cell data "name" and "closed"; a closed line ends with its first point. A column
 /// that only some lines have is NaN on the others.
@@ -22,10 +24,17 @@ void write_stl(const std::filesystem::path& file, std::span<const TriMesh> meshe
 /// columns.
 void write_obj(const std::filesystem::path& file, std::span<const TriMesh> meshes);
 
-/// Reads a .vtp, a binary .stl or an .obj of triangles, for checks on what a user receives. Equal corners of
-/// an STL become one point; the groups of an OBJ become one mesh. Throws IoError.
+/// Binary little-endian, everything as 64-bit floats: nothing is rounded. Columns are further properties of
+/// the vertices (blanks in names become "_", components get "_0", "_1", ...), without units.
+void write_ply(const std::filesystem::path& file, const TriMesh& mesh);
+
+/// Reads a .vtp, a binary .stl or .ply, or an .obj of triangles, for checks on what a user receives. Equal
+/// corners of an STL become one point; the groups of an OBJ become one mesh. Throws IoError.
 [[nodiscard]] TriMesh read_mesh(const std::filesystem::path& file);
 /// The lines of a .vtp; closed where the last point is the first. Throws IoError.
 [[nodiscard]] std::vector<PolyLine> read_polylines(const std::filesystem::path& file);
+
+/// The extension in lower case, with its dot: what decides the format.
+[[nodiscard]] std::string lower_case_extension(const std::filesystem::path& file);
 
 }  // namespace blendwright

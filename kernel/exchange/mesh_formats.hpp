@@ -21,5 +21,9 @@ inline constexpr std::size_t largest_mesh_file = std::size_t{4} << 30;
 [[nodiscard]] TriMesh read_vtp(const std::filesystem::path& file);
 [[nodiscard]] TriMesh read_stl(const std::filesystem::path& file);
 [[nodiscard]] TriMesh read_obj(const std::filesystem::path& file);
+[[nodiscard]] TriMesh read_ply(const std::filesystem::path& file);
+
+/// The points of a .vtp, whatever its cells are.
+[[nodiscard]] std::vector<Vec3> read_vtp_points(const std::filesystem::path& file);
 
 }  // namespace blendwright

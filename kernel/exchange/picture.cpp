@@ -102,7 +102,7 @@ std::optional<Axis> bar_axis(const Picture& picture) {
     all.insert(all.end(), column.values.begin(), column.values.end());
   }
   if (!any) return std::nullopt;
-  const Range range = range_of(all);
+  const ValueRange range = range_of(all);
   if (!picture.logarithmic) return linear_axis(range, bar_ticks - 2);
   Axis axis = log_axis(range, bar_decades, bar_ticks);
   if (range.least <= 0.0 || std::log10(range.least) < axis.lo) axis.ticks.back().label.insert(0, "< ");
@@ -239,7 +239,7 @@ void add_lights(vtkRenderer& renderer) {
 }
 
 /// Half the height of a window of the area's shape around `extent`.
-double half_height(const Extent& extent, const Box& area) {
+double half_height(const Extent& extent, const PixelBox& area) {
   const Vec3 half = 0.5 * (extent.hi - extent.lo);
   return std::max(half.y(), half.x() * area.height() / area.width()) / filled;
 }
@@ -252,7 +252,7 @@ double middle_within(double wanted, double half, double lo, double hi) {
 
 /// Parallel projection: lengths compare across the picture. Everything is shown, or the surroundings of the
 /// focus.
-void aim(vtkRenderer& renderer, const Frame& frame, const Extents& extents, const Box& area) {
+void aim(vtkRenderer& renderer, const Frame& frame, const Extents& extents, const PixelBox& area) {
   const Extent &all = extents.all, &focus = extents.focus;
   const double whole = half_height(all, area), near_focus = surroundings * half_height(focus, area);
   const double scale = near_focus > 0.0 ? std::min(whole, near_focus) : whole;
@@ -273,10 +273,10 @@ void aim(vtkRenderer& renderer, const Frame& frame, const Extents& extents, cons
 }
 
 /// The colour bar with its scale and its title, in the column right of the object.
-void draw_bar(Canvas& canvas, const Box& column, const Axis& axis, const std::string& title) {
+void draw_bar(Canvas& canvas, const PixelBox& column, const Axis& axis, const std::string& title) {
   const double height = std::min(0.74 * column.height(), 26.0 * 20);
   const double bottom = column.bottom + 0.5 * (column.height() - height);
-  const Box bar{column.left + 10, bottom, column.left + 30, bottom + height};
+  const PixelBox bar{column.left + 10, bottom, column.left + 30, bottom + height};
   constexpr int steps = 128;
   for (int i = 0; i < steps; ++i)
     canvas.fill({bar.left, bar.bottom + height * i / steps, bar.right, bar.bottom + height * (i + 1) / steps},
@@ -296,7 +296,8 @@ void draw_bar(Canvas& canvas, const Box& column, const Axis& axis, const std::st
   canvas.text({x, 0.5 * (bar.bottom + bar.top)}, title, style);
 }
 
-vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<Axis>& axis, const Box& area) {
+vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<Axis>& axis,
+                                   const PixelBox& area) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetViewport(area.left / picture.width, area.bottom / picture.height, area.right / picture.width,
                         area.top / picture.height);

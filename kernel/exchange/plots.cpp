@@ -27,7 +27,7 @@ struct Axes {
   Axis x, y;
 };
 
-Axes axes_of(const Plot& plot, const Box& box) {
+Axes axes_of(const Plot& plot, const PixelBox& box) {
   std::vector<double> xs, ys;
   for (const PlotCurve& curve : plot.curves) {
     xs.insert(xs.end(), curve.x.begin(), curve.x.end());
@@ -36,7 +36,7 @@ Axes axes_of(const Plot& plot, const Box& box) {
   if (plot.limit) ys.push_back(*plot.limit);
   const int rows = std::max(2, static_cast<int>(box.height() / 34.0));
   const int columns = std::max(2, static_cast<int>(box.width() / 65.0));
-  Range y = range_of(ys);
+  ValueRange y = range_of(ys);
   // Headroom: a limit on the uppermost line of the frame would not be seen as a line.
   if (plot.logarithmic) {
     y.most *= 2.0;
@@ -50,7 +50,7 @@ Axes axes_of(const Plot& plot, const Box& box) {
 
 class Panel {
  public:
-  Panel(Canvas& canvas, const Plot& plot, const Box& area) : canvas_(canvas), plot_(plot), area_(area) {
+  Panel(Canvas& canvas, const Plot& plot, const PixelBox& area) : canvas_(canvas), plot_(plot), area_(area) {
     box_ = {area.left + 84, area.bottom + 62, area.right - 22, area.top - 84};
     axes_ = axes_of(plot, box_);
   }
@@ -145,7 +145,7 @@ class Panel {
 
   Canvas& canvas_;
   const Plot& plot_;
-  Box area_, box_;
+  PixelBox area_, box_;
   Axes axes_;
 };
 

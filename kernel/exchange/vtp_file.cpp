@@ -31,6 +31,7 @@ constexpr const char* name_key = "name";      // of the mesh (field data) or of 
 constexpr const char* note_key = "note";      // of the file (field data): how it was made
 constexpr const char* closed_key = "closed";  // of each line
 constexpr const char* normals_key = "Normals";
+constexpr const char* labels_suffix = " labels";  // of a column (field data)
 
 vtkSmartPointer<vtkDoubleArray> array_of(const std::string& name, int components, std::size_t rows) {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -82,6 +83,10 @@ std::vector<Column> columns_of(vtkPolyData& data, const std::vector<vtkIdType>& 
     column.values.reserve(ids.size() * static_cast<std::size_t>(column.components));
     for (const vtkIdType i : ids)
       for (int k = 0; k < column.components; ++k) column.values.push_back(array->GetComponent(i, k));
+    auto* labels = vtkStringArray::SafeDownCast(
+        data.GetFieldData()->GetAbstractArray((column.name + labels_suffix).c_str()));
+    for (vtkIdType i = 0; labels && i < labels->GetNumberOfValues(); ++i)
+      column.labels.push_back(labels->GetValue(i));
   }
   return columns;
 }
@@ -134,6 +139,15 @@ void add_note(vtkPolyData& data, const std::string& note) {
   data.GetFieldData()->AddArray(text);
 }
 
+/// Field data "<column> labels": what the indices of a column stand for.
+void add_labels(vtkPolyData& data, const Column& column) {
+  if (column.labels.empty()) return;
+  vtkNew<vtkStringArray> labels;
+  labels->SetName((column.name + labels_suffix).c_str());
+  for (const std::string& label : column.labels) labels->InsertNextValue(label);
+  data.GetFieldData()->AddArray(labels);
+}
+
 }  // namespace
 
 void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
@@ -148,6 +162,11 @@ void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
   vtkNew<vtkCellArray> triangles;
   for (const auto& t : mesh.triangles) triangles->InsertNextCell({t[0], t[1], t[2]});
   data->SetPolys(triangles);
+  if (mesh.triangles.empty()) {
+    vtkNew<vtkCellArray> vertices;
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) vertices->InsertNextCell({i});
+    data->SetVerts(vertices);
+  }
 
   if (!mesh.normals.empty()) {
     const auto normals = array_of(normals_key, 3, mesh.normals.size());
@@ -160,6 +179,7 @@ void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
     std::copy(column.values.begin(), column.values.end(), array->GetPointer(0));
     if (!column.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), column.unit);
     data->GetPointData()->AddArray(array);
+    add_labels(*data, column);
   }
   vtkNew<vtkStringArray> name;
   name->SetName(name_key);
@@ -229,6 +249,15 @@ TriMesh read_vtp(const std::filesystem::path& file) {
   }
   mesh.columns = columns_of(*data, all_points(*data));
   return mesh;
+}
+
+std::vector<Vec3> read_vtp_points(const std::filesystem::path& file) {
+  const VtkMessages messages;
+  const vtkSmartPointer<vtkPolyData> data = read(file, messages);
+  std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) points.push_back(point_of(*data, i));
+  return points;
 }
 
 std::vector<PolyLine> read_polylines(const std::filesystem::path& file) {

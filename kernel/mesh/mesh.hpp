@@ -15,6 +15,7 @@ struct Column {
   std::string name, unit;
   int components = 1;
   std::vector<double> values;
+  std::vector<std::string> labels{};  ///< of a column of indices: what 0, 1, ... stand for
 };
 
 struct TriMesh {

@@ -75,7 +75,7 @@ TEST(LogAxis, PutsZeroAtTheBottomAndDecadesInEqualSteps) {
 
 TEST(RangeOfValues, LeavesOutWhatIsNotFinite) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  const Range range = range_of({nan, 3.0, -1.0, infinity, 0.5});
+  const ValueRange range = range_of({nan, 3.0, -1.0, infinity, 0.5});
   EXPECT_EQ(range.least, -1.0);
   EXPECT_EQ(range.most, 3.0);
   EXPECT_EQ(range.least_positive, 0.5);

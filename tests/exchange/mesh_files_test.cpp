@@ -231,6 +231,7 @@ const NamedWriter writers[] = {
     {".stl", [](const auto& file, const TriMesh& mesh) { write_stl(file, std::vector{mesh}); }, first_half},
     {".obj", [](const auto& file, const TriMesh& mesh) { write_obj(file, std::vector{mesh}); },
      [](const std::string& bytes) { return bytes + "f 1 2 999999\n"; }},
+    {".ply", [](const auto& file, const TriMesh& mesh) { write_ply(file, mesh); }, first_half},
 };
 
 class MeshWriter : public testing::TestWithParam<NamedWriter> {};
