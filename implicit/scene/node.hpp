@@ -26,7 +26,8 @@ struct Node {
   /// Encloses every point, in the node's own coordinates, whose value lies on the solid's side of `value` (<=
   /// for levels zero and one, >= for the others); nullopt: unbounded or not known.
   std::function<std::optional<Box>(double value)> region = [](double) { return std::nullopt; };
-  /// Of profiles and curves: whatever their users agree on.
+  /// Of profiles and curves: whatever their users agree on. Of placements: the Frame from the coordinates of
+  /// the node to those of the placed one.
   std::shared_ptr<const void> detail{};
 };
 
@@ -89,6 +90,9 @@ class NodeInputs {
   virtual void problem(std::string_view key, std::string_view name, std::string message, int index = -1) = 0;
   virtual void warning(std::string_view key, std::string message) = 0;
 };
+
+/// A parameter of this name takes a profile; all other nodes are nodes in space.
+inline constexpr std::string_view profile_key = "profile";
 
 enum class NodeFamily { profile, distance, distance_operation, field, operation, conversion, placement };
 [[nodiscard]] std::string_view name(NodeFamily family);
