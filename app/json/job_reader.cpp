@@ -1,73 +1,12 @@
 #include "app/json/job_reader.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <iostream>
-#include <iterator>
-#include <set>
 
 #include "app/json/job_parts.hpp"
 #include "kernel/base/number_text.hpp"
-#include "kernel/base/text_file.hpp"
-#include "kernel/math/formula.hpp"
 
 namespace blendwright {
 namespace {
-
-/// Names become parts of file names and STEP names.
-bool good_name(const std::string& name) {
-  return !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
-  });
-}
-
-/// The members of an object of named things; reports names that cannot be used.
-const JsonValue::Object& named(ObjectReader& job, const char* key, Reading& reading) {
-  static const JsonValue::Object none;
-  const JsonValue* value = job.find(key);
-  if (!value) return none;
-  const auto* members = value->members();
-  if (!members) {
-    job.problem(key, described(*value) + ", must be an object: {\"name\": {...}, ...}");
-    return none;
-  }
-  for (const JsonMember& m : *members)
-    if (!good_name(m.key))
-      reading.problem(job.at(key) + "/" + pointer_part(m.key),
-                      "is named " + in_quotes(m.key) +
-                          "; a name must be 1 to 60 of the letters a-z and A-Z, digits, \"_\" and \"-\"");
-  return *members;
-}
-
-bool parses(const std::string& formula, const std::map<std::string, double>& constants) {
-  try {
-    [[maybe_unused]] const Formula parsed(formula, {}, constants);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-/// What is wrong with the name of a constant: a formula must read it as this constant and nothing else.
-std::string constant_name_problem(const std::string& name) {
-  if (name == "u" || name == "v" || name == "pi" || parses(name + "(1)", {}) || parses(name + "(1, 1)", {}))
-    return ", which formulas use already; choose another name";
-  if (parses(name, {{name, 1.5}}) && (name == "e" || !parses(name, {}))) return "";
-  return "; the name of a constant must be a letter, then letters, digits or \"_\"";
-}
-
-void read_constants(ObjectReader& job, Reading& reading) {
-  for (const JsonMember& m : named(job, "let", reading)) {
-    const std::string where = job.at("let") + "/" + pointer_part(m.key);
-    const auto value = reading.number(m.value, where);
-    if (!good_name(m.key)) continue;
-    const std::string trouble = constant_name_problem(m.key);
-    if (!trouble.empty())
-      reading.problem(where, "is named " + in_quotes(m.key) + trouble);
-    else if (value)
-      reading.constants[m.key] = *value;
-  }
-}
 
 void read_tolerance(const JsonValue& value, const std::string& where, Tolerance& tolerance,
                     Reading& reading) {
@@ -123,7 +62,7 @@ void read_blends(ObjectReader& object, const KnownPrimaries& known, JobSpec& job
 }  // namespace
 
 JobSpec read_job(std::string_view text, const std::filesystem::path& file) {
-  const JsonValue root = parse_json(text);
+  const JsonValue root = parse_json(text, R"(the shortest job has "primaries" and "blends")");
   Reading reading;
   JobSpec job;
   job.name = file == "-" ? "job" : file.stem().string();
@@ -134,7 +73,7 @@ JobSpec read_job(std::string_view text, const std::filesystem::path& file) {
     job.unit = object.choice("unit", unit_choices()).value_or(LengthUnit::millimetre);
     object.text("$schema");
     object.text("description");
-    read_constants(object, reading);
+    read_constants(object, {"u", "v"}, reading);
     job.constants = reading.constants;
     const KnownPrimaries known = read_primaries(object, job, reading);
     read_blends(object, known, job, reading);
@@ -147,20 +86,6 @@ JobSpec read_job(std::string_view text, const std::filesystem::path& file) {
   return job;
 }
 
-JobSpec read_job_file(const std::filesystem::path& file) {
-  if (file == "-") {
-    std::string text;
-    for (char block[65536]; std::cin.read(block, sizeof block), std::cin.gcount() > 0;) {
-      text.append(block, static_cast<std::size_t>(std::cin.gcount()));
-      if (text.size() > largest_json_text) break;
-    }
-    return read_job(text, file);
-  }
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(file, error);
-  if (!error && bytes > largest_json_text)
-    throw InputError("", "is larger than " + std::to_string(largest_json_text >> 20) + " MB, the limit");
-  return read_job(read_text_file(file, largest_json_text), file);
-}
+JobSpec read_job_file(const std::filesystem::path& file) { return read_job(read_json_text(file), file); }
 
 }  // namespace blendwright

@@ -11,7 +11,7 @@ namespace blendwright {
 
 /// Throws InputError with every problem of the text at once, each with its JSON pointer in the order of the
 /// file; a syntax error names line and column. `file` gives the job's name and folder. Unknown keys are
-/// errors with a suggestion; text over 16 MB or nested deeper than 64 levels is refused before parsing.
+/// errors with a suggestion; text over 64 MB or nested deeper than 64 levels is refused before parsing.
 [[nodiscard]] JobSpec read_job(std::string_view text, const std::filesystem::path& file);
 /// Reads the file ("-": standard input). IoError when it cannot be read.
 [[nodiscard]] JobSpec read_job_file(const std::filesystem::path& file);

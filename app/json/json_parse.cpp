@@ -1,15 +1,15 @@
 // The only file that sees the JSON library.
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <unordered_set>
 
 #include "app/json/json_value.hpp"
 #include "kernel/base/error.hpp"
+#include "kernel/base/text_file.hpp"
 
 namespace blendwright {
 namespace {
-
-constexpr std::size_t most_values = 1'000'000;
 
 std::string place(std::string_view text, std::size_t position) {
   const std::string_view before = text.substr(0, std::min(position, text.size()));
@@ -134,9 +134,9 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool put(JsonValue value) {
-    if (++values_ > most_values)
+    if (++values_ > most_json_values)
       throw InputError(levels_.empty() ? "" : pointer(),
-                       "more than " + std::to_string(most_values) + " values in one job, the limit");
+                       "more than " + std::to_string(most_json_values) + " values in one file, the limit");
     if (levels_.empty()) {
       root_ = std::move(value);
     } else if (auto* items = std::get_if<JsonValue::Array>(&levels_.back().value.value)) {
@@ -165,13 +165,31 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   std::size_t values_ = 0;
 };
 
+[[noreturn]] void refuse_size() {
+  throw InputError("", "is larger than " + std::to_string(largest_json_text >> 20) + " MB, the limit");
+}
+
 }  // namespace
 
-JsonValue parse_json(std::string_view text) {
-  if (text.size() > largest_json_text)
-    throw InputError("", "is larger than " + std::to_string(largest_json_text >> 20) + " MB, the limit");
+std::string read_json_text(const std::filesystem::path& file) {
+  if (file == "-") {
+    std::string text;
+    for (char block[65536]; std::cin.read(block, sizeof block), std::cin.gcount() > 0;) {
+      text.append(block, static_cast<std::size_t>(std::cin.gcount()));
+      if (text.size() > largest_json_text) refuse_size();
+    }
+    return text;
+  }
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file, error);
+  if (!error && bytes > largest_json_text) refuse_size();
+  return read_text_file(file, largest_json_text);
+}
+
+JsonValue parse_json(std::string_view text, std::string_view shortest) {
+  if (text.size() > largest_json_text) refuse_size();
   if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos)
-    throw InputError("", "is empty; the shortest job has \"primaries\" and \"blends\"");
+    throw InputError("", shortest.empty() ? "is empty" : "is empty; " + std::string(shortest));
   if (text.size() > 1 && (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF"))
     throw InputError("", "is in UTF-16, must be in UTF-8");
   refuse_deep_nesting(text);

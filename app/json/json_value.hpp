@@ -1,6 +1,7 @@
 #pragma once
 // A JSON document as a plain value, so that only the parser's .cpp sees a JSON library.
 #include <cstddef>
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -62,12 +63,17 @@ struct JsonMember {
 /// numbers; NaN and infinity become null.
 [[nodiscard]] std::string json_text(const JsonValue& value);
 
-/// Parses JSON with comments. Throws InputError: text over 16 MB, nesting over 64 levels, more than a million
-/// values, a syntax error (line and column), invalid UTF-8, a key that appears twice in an object (JSON
-/// pointers, all of them), empty text.
-[[nodiscard]] JsonValue parse_json(std::string_view text);
-
-inline constexpr std::size_t largest_json_text = std::size_t{16} << 20;
+inline constexpr std::size_t largest_json_text = std::size_t{64} << 20;
 inline constexpr std::size_t deepest_json = 64;
+inline constexpr std::size_t most_json_values = 5'000'000;
+
+/// Parses JSON with comments. Throws InputError: text over 64 MB, nesting over 64 levels, more than five
+/// million values, a syntax error (line and column), invalid UTF-8, a key that appears twice in an object
+/// (JSON pointers, all of them), empty text (`shortest` says what a document has at least).
+[[nodiscard]] JsonValue parse_json(std::string_view text, std::string_view shortest = "");
+
+/// The text of a file ("-": standard input). Throws IoError when it cannot be read, InputError when it is
+/// larger than 64 MB.
+[[nodiscard]] std::string read_json_text(const std::filesystem::path& file);
 
 }  // namespace blendwright

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "kernel/base/number_text.hpp"
@@ -52,6 +53,24 @@ bool Reading::faulty(const std::string& where) const {
   return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& p) {
     return p.where == where || p.where.rfind(where + "/", 0) == 0;
   });
+}
+
+void Reading::add(const InputError& later) {
+  std::set<std::string> places, around;  // that have a problem; that enclose one
+  for (const Problem& p : problems_) {
+    places.insert(p.where);
+    for (std::string at = p.where; !at.empty();
+         at.resize(at.rfind('/') == std::string::npos ? 0 : at.rfind('/')))
+      around.insert(at);
+  }
+  const auto known = [&](std::string at) {
+    if (around.count(at) > 0) return true;
+    for (; !at.empty(); at.resize(at.rfind('/') == std::string::npos ? 0 : at.rfind('/')))
+      if (places.count(at) > 0) return true;
+    return false;
+  };
+  for (const Problem& p : later.problems())
+    if (!known(p.where)) problems_.push_back(p);
 }
 
 void Reading::finish(const JsonValue& root) const {

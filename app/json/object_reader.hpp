@@ -1,5 +1,6 @@
 #pragma once
-// Reads one object of a job file against its table of keys, collecting every problem with its JSON pointer.
+// Reads one object of a job or scene file against its table of keys, collecting every problem with its JSON
+// pointer.
 #include <map>
 #include <optional>
 #include <string>
@@ -14,7 +15,7 @@
 
 namespace blendwright {
 
-/// What one reading of a job collects: its problems, and the constants that formulas may use.
+/// What one reading of a file collects: its problems, and the constants that formulas may use.
 class Reading {
  public:
   std::map<std::string, double> constants;
@@ -22,8 +23,12 @@ class Reading {
   void problem(std::string where, std::string message) {
     problems_.push_back({std::move(where), std::move(message)});
   }
+  /// Adds what a later check found, but nothing at, above or inside a place that has a problem already: one
+  /// mistake is told once.
+  void add(const InputError& later);
   /// True when `where` or something inside it already has a problem.
   [[nodiscard]] bool faulty(const std::string& where) const;
+  [[nodiscard]] bool empty() const { return problems_.empty(); }
   /// Throws InputError with all problems in the order of the file, if there are any.
   void finish(const JsonValue& root) const;
 
@@ -60,6 +65,13 @@ class Reading {
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 /// ""a", "b" or "c"".
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+class ObjectReader;
+/// The members of an object of named things; reports names that cannot be used (they become parts of file
+/// names and STEP names).
+[[nodiscard]] const std::vector<JsonMember>& named(ObjectReader& object, const char* key, Reading& reading);
+/// "let": constants for formulas of these variables.
+void read_constants(ObjectReader& object, const std::vector<std::string>& variables, Reading& reading);
 
 class ObjectReader {
  public:

@@ -326,7 +326,7 @@ TEST(Program, RefusesAHundredMegabytesOfBracketsAtOnce) {
            "blend - -o " + quoted_path(folder / "out") + " < " + quoted_path(folder / "brackets.json")}) {
     const Outcome outcome = run_program(arguments, "exec");
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr(": 1 problem\n  is larger than 16 MB, the limit\n"));
+    EXPECT_THAT(outcome.err, HasSubstr(": 1 problem\n  is larger than 64 MB, the limit\n"));
   }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
   EXPECT_EQ(folder.files().size(), 1u);
