@@ -23,17 +23,26 @@ class Tape final : public ScalarField::Model {
  public:
   struct Step {
     const Op* op;
-    const void* body;
+    const void* body;    ///< null: the body is `constant`
+    double constant;     ///< of the operation constant_op()
     std::int32_t frame;  ///< index of frames, -1: the scene's own
     std::uint32_t first_arg, arg_count;
     std::uint32_t slot;  ///< where its results are kept while they are needed
   };
 
+  /// The caller sees to it that coordinates are finite; others give any value, also NaN, at their own point
+  /// and change no other point's.
   void evaluate(Order order, PointArrays points, std::span<double> out) const override;
-  /// The same through the scalar kernels: an independent reference for tests, and for single points.
+  /// The same through the scalar kernels: an independent reference for tests.
   void evaluate_scalar(Order order, PointArrays points, std::span<double> out) const;
+  /// Linear in the number of steps, like within(). Shortcuts are taken here too, so both give one range.
   [[nodiscard]] Range range(const Box& box) const override;
+  /// Takes the shortcuts of the operations: arguments and constants stand in for steps that equal them on the
+  /// box, and steps (and members) that no longer matter are left out. An operation on constants is folded
+  /// only by its own shortcut: vector and scalar kernels need not agree to the last bit.
   [[nodiscard]] Within within(const Box& box) const override;
+  /// First-order distance |f - surface value| / |gradient f| of each member that is still on the tape; the
+  /// smallest wins, the lowest index on ties; 0 where no member's gradient is there to tell.
   void nearest_member(PointArrays points, std::span<std::uint32_t> out) const override;
 
   [[nodiscard]] std::size_t size() const { return steps_.size(); }
@@ -43,12 +52,23 @@ class Tape final : public ScalarField::Model {
   friend class TapeBuilder;
   Tape() = default;
 
+  /// What steps point to; shared with every shortened tape.
+  struct Owned {
+    std::vector<std::shared_ptr<const void>> bodies;
+    std::vector<Frame> frames;
+  };
+
+  struct Walk;
+  void run(Order order, PointArrays points, KernelSet Op::*kernels, std::size_t lanes,
+           std::span<double> out) const;
+  void bound(const Box& box, Walk& walk) const;
+  [[nodiscard]] std::shared_ptr<const Tape> shortened(Walk& walk) const;
+
   std::vector<Step> steps_;  ///< arguments before users; the last step is the result
   std::vector<StepIndex> args_;
-  std::vector<TapeMember> members_;
+  std::vector<const Frame*> frames_;  ///< only those that its steps use
+  std::vector<TapeMember> members_;   ///< by step
   std::size_t slots_ = 0;
-  /// What steps point to; shared with every shortened tape.
-  struct Owned;
   std::shared_ptr<const Owned> owned_;
 };
 
@@ -61,7 +81,8 @@ class TapeBuilder {
   TapeBuilder(const TapeBuilder&) = delete;
   TapeBuilder& operator=(const TapeBuilder&) = delete;
 
-  /// Adds a step; the body lives as long as the tape and all tapes made from it.
+  /// Adds a step; the body lives as long as the tape and all tapes made from it. Throws InputError ("args")
+  /// when an argument is not a step of this builder.
   StepIndex add(const Op& op, std::shared_ptr<const void> body, const Frame& frame,
                 std::span<const StepIndex> args = {});
   template <class Body>
@@ -71,7 +92,8 @@ class TapeBuilder {
   /// A step that is c everywhere.
   StepIndex constant(double c);
   void member(TapeMember member);
-  /// The tape whose value is that of `result`; steps that do not matter for it are left out.
+  /// The tape whose value is that of `result`; steps and members that do not matter for it are left out. Its
+  /// arguments stand in the order that keeps the fewest results at a time (for trees: Sethi and Ullman 1970).
   [[nodiscard]] std::shared_ptr<const Tape> finish(StepIndex result);
 
  private:

@@ -1,0 +1,137 @@
+// Bounds of a tape over a box, and the tape that is left of it there.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "implicit/eval/constant.hpp"
+#include "implicit/eval/slots.hpp"
+#include "implicit/eval/tape.hpp"
+
+namespace blendwright {
+namespace {
+
+constexpr StepIndex none = std::numeric_limits<StepIndex>::max();
+
+}  // namespace
+
+/// What a walk over a tape finds out about a box; kept per thread, so that a walk allocates nothing.
+struct Tape::Walk {
+  std::vector<Box> boxes;           ///< of the frames
+  std::vector<Range> ranges;        ///< of the steps
+  std::vector<StepIndex> stand_in;  ///< the step that it equals on the box; itself: none
+  std::vector<bool> constant;       ///< whether it is a constant on the box, though its operation is not
+  std::vector<Range> args;
+  bool shorter = false;
+
+  std::vector<StepIndex> place;  ///< in the shortened tape
+  std::vector<std::int32_t> frame_place;
+  std::vector<StepIndex> last_use;
+  std::vector<std::uint32_t> free;
+
+  static Walk& mine() {
+    thread_local Walk walk;
+    return walk;
+  }
+};
+
+/// Ranges and stand-ins of all steps, arguments first.
+void Tape::bound(const Box& box, Walk& walk) const {
+  walk.boxes.resize(frames_.size());
+  for (std::size_t f = 0; f < frames_.size(); ++f) walk.boxes[f] = frames_[f]->local(box);
+  walk.ranges.resize(steps_.size());
+  walk.stand_in.resize(steps_.size());
+  walk.constant.assign(steps_.size(), false);
+  walk.shorter = false;
+  for (StepIndex i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const void* body = step.body ? step.body : &step.constant;
+    const Box& local = step.frame < 0 ? box : walk.boxes[static_cast<std::size_t>(step.frame)];
+    walk.args.resize(step.arg_count);
+    for (std::uint32_t k = 0; k < step.arg_count; ++k) walk.args[k] = walk.ranges[args_[step.first_arg + k]];
+    walk.stand_in[i] = i;
+    Shortcut shortcut;
+    if (step.op->shortcut) shortcut = step.op->shortcut(body, local, walk.args);
+    switch (shortcut.kind) {
+      case Shortcut::Kind::argument: {
+        const StepIndex a = walk.stand_in[args_[step.first_arg + shortcut.argument]];
+        walk.stand_in[i] = a;
+        walk.ranges[i] = walk.ranges[a];
+        walk.shorter = true;
+        break;
+      }
+      case Shortcut::Kind::constant:
+        walk.ranges[i] = {shortcut.constant, shortcut.constant};
+        walk.constant[i] = true;
+        walk.shorter = true;
+        break;
+      case Shortcut::Kind::none:
+        walk.ranges[i] = step.op->range(body, local, walk.args);
+        break;
+    }
+  }
+}
+
+std::shared_ptr<const Tape> Tape::shortened(Walk& walk) const {
+  // Backwards: what is needed. place: 0 when it is, else none.
+  walk.place.assign(steps_.size(), none);
+  walk.place[walk.stand_in.back()] = 0;
+  std::size_t step_count = 0, arg_count = 0;
+  for (std::size_t i = steps_.size(); i-- > 0;) {
+    if (walk.place[i] == none) continue;
+    ++step_count;
+    if (walk.constant[i]) continue;
+    arg_count += steps_[i].arg_count;
+    for (std::uint32_t k = 0; k < steps_[i].arg_count; ++k)
+      walk.place[walk.stand_in[args_[steps_[i].first_arg + k]]] = 0;
+  }
+  // Forwards: the steps that stay, with new places.
+  const std::shared_ptr<Tape> tape(new Tape);
+  tape->steps_.reserve(step_count);
+  tape->args_.reserve(arg_count);
+  walk.frame_place.assign(frames_.size(), -1);
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    if (walk.place[i] == none) continue;
+    walk.place[i] = static_cast<StepIndex>(tape->steps_.size());
+    Step step = steps_[i];
+    step.first_arg = static_cast<std::uint32_t>(tape->args_.size());
+    if (walk.constant[i]) {
+      step = {&detail::constant_op(), nullptr, walk.ranges[i].lo, -1, step.first_arg, 0, 0};
+    } else {
+      for (std::uint32_t k = 0; k < step.arg_count; ++k)
+        tape->args_.push_back(walk.place[walk.stand_in[args_[steps_[i].first_arg + k]]]);
+    }
+    if (step.frame >= 0) {
+      const auto f = static_cast<std::size_t>(step.frame);
+      if (walk.frame_place[f] < 0) {
+        walk.frame_place[f] = static_cast<std::int32_t>(tape->frames_.size());
+        tape->frames_.push_back(frames_[f]);
+      }
+      step.frame = walk.frame_place[f];
+    }
+    tape->steps_.push_back(step);
+  }
+  for (TapeMember m : members_) {
+    const StepIndex s = walk.stand_in[m.step];
+    if (walk.place[s] == none || walk.constant[s]) continue;
+    m.step = walk.place[s];
+    tape->members_.push_back(m);
+  }
+  std::ranges::sort(tape->members_, {}, [](const TapeMember& m) { return std::pair(m.step, m.index); });
+  tape->owned_ = owned_;
+  tape->slots_ = detail::assign_slots(tape->steps_, tape->args_, walk.last_use, walk.free);
+  return tape;
+}
+
+Range Tape::range(const Box& box) const {
+  Walk& walk = Walk::mine();
+  bound(box, walk);
+  return walk.ranges.back();
+}
+
+ScalarField::Model::Within Tape::within(const Box& box) const {
+  Walk& walk = Walk::mine();
+  bound(box, walk);
+  return {walk.ranges.back(), walk.shorter ? shortened(walk) : nullptr};
+}
+
+}  // namespace blendwright
