@@ -379,7 +379,8 @@ HWY_INLINE L lane_power(L x, const Power& n) {
     }
   }
 }
-/// x^n, x >= 0, n > 0; derivatives at x <= 1e-150 are 0, but for n = 1.
+/// x^n, x >= 0, n > 0; derivatives at x <= 1e-150 (1e-75 for n < 1, where they are steepest) are 0, but for
+/// n = 1.
 template <class T>
 HWY_INLINE T power(const T& x, const Power& n) {
   using L = LaneOf<T>;
@@ -388,7 +389,7 @@ HWY_INLINE T power(const T& x, const Power& n) {
   if constexpr (NumberTraits<T>::order == 0) {
     return f;
   } else {
-    const auto regular = v > L(1e-150);
+    const auto regular = v > L(n.exponent < 1.0 ? 1e-75 : 1e-150);
     const L i = L(1.0) / select(regular, v, L(1.0));
     const L f1 = select(regular, L(n.exponent) * (f * i), L(0.0));
     return chain(x, f, f1, L(n.exponent - 1.0) * (f1 * i));

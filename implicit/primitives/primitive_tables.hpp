@@ -10,12 +10,4 @@ namespace blendwright::detail {
 [[nodiscard]] std::span<const NodeKind> skeleton_kinds();        // segment_skeleton, capsule_gauge
 [[nodiscard]] std::span<const NodeKind> sweep_kinds();  // polar_bar, sweep_line, sweep_arc, sweep_curve
 
-/// What emit of a primitive does: one step with this body.
-template <class Body>
-[[nodiscard]] std::function<StepIndex(TapeBuilder&, const Frame&)> emit_body(Body body) {
-  return [shared = std::make_shared<const Body>(std::move(body))](TapeBuilder& tape, const Frame& frame) {
-    return tape.add<Body>(shared, frame, {});
-  };
-}
-
 }  // namespace blendwright::detail
