@@ -1,7 +1,6 @@
 #include "tests/support/golden.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -156,12 +155,6 @@ void append(const Json& file, const std::string& where, SweepGolden& all) {
 }
 
 }  // namespace
-
-std::filesystem::path golden_folder() {
-  const char* chosen = std::getenv("BLENDWRIGHT_GOLDEN_DIR");
-  if (chosen != nullptr && *chosen != '\0') return chosen;
-  return std::filesystem::path(BLENDWRIGHT_SOURCE_DIR) / "tests/data/golden";
-}
 
 SweepGolden read_sweep_golden(const std::filesystem::path& folder) {
   SweepGolden all;

@@ -9,11 +9,9 @@
 
 #include "kernel/base/units.hpp"
 #include "parametric/ode/sweep_ode.hpp"
+#include "tests/support/golden_folder.hpp"
 
 namespace blendwright::test {
-
-/// BLENDWRIGHT_GOLDEN_DIR when set, else the project's own folder.
-[[nodiscard]] std::filesystem::path golden_folder();
 
 using Table = std::vector<std::vector<double>>;  // [row][column]
 
