@@ -309,13 +309,18 @@ HWY_INLINE T absolute(const T& x) {
   const auto v = value_of(x);
   return chain(x, lane::abs(v), lane::sign(v));
 }
-/// sqrt(x), x >= 0; derivatives 0 at 0.
+/// sqrt(x), x >= 0; derivatives 0 at x <= 1e-150, before the second one overflows.
 template <class T>
 HWY_INLINE T root(const T& x) {
   using L = LaneOf<T>;
   const L v = value_of(x), f = lane::sqrt(v);
-  const L f1 = select(v > L(0.0), L(0.5) / f, L(0.0));
-  return chain(x, f, f1, select(v > L(0.0), L(-0.5) * f1 / v, L(0.0)));
+  if constexpr (NumberTraits<T>::order == 0) {
+    return f;
+  } else {
+    const auto regular = v > L(1e-150);
+    const L i = L(1.0) / select(regular, v, L(1.0)), f1 = select(regular, L(0.5) * (f * i), L(0.0));
+    return chain(x, f, f1, L(-0.5) * (f1 * i));
+  }
 }
 template <class T>
 HWY_INLINE T square(const T& x) {
