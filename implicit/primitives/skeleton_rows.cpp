@@ -30,8 +30,8 @@ Node make_segment(NodeInputs& in) {
   const Vec3 direction = length > 0.0 ? Vec3((p1 - p0).normalized()) : Vec3::Zero();
   Node node;
   node.distance = true;
-  node.positive = true;
   node.ray_linear = length == 0.0;  // a ball, about its centre
+  node.positive = node.ray_linear;  // else 0 all along the segment
   if (node.ray_linear) node.origin = p0;
   node.emit = emit_body(SegmentSkeleton{p0, direction, length, 1.0 / radius});
   const Box ends{p0.cwiseMin(p1), p0.cwiseMax(p1)};
