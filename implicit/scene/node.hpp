@@ -31,6 +31,10 @@ struct Node {
   std::shared_ptr<const void> detail{};
 };
 
+/// Whether two ray-linear nodes are so about the same point: within 1e-9 of its distance from the origin of
+/// their coordinates, which is what turned and scaled placements round to, or 1e-12.
+[[nodiscard]] bool same_origin(const Node& a, const Node& b);
+
 /// The named errors of soft objects; problems start with one of these words.
 namespace scene_error {
 inline constexpr std::string_view invalid_parameter = "InvalidParameter";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string>
 #include <unordered_map>
@@ -5,6 +6,10 @@
 #include "implicit/scene/node.hpp"
 
 namespace blendwright {
+
+bool same_origin(const Node& a, const Node& b) {
+  return (a.origin - b.origin).norm() <= 1e-12 + 1e-9 * std::max(a.origin.norm(), b.origin.norm());
+}
 
 std::string_view name(NodeFamily family) {
   constexpr std::array<std::string_view, 7> names = {"profile",   "distance",   "distance operation", "field",

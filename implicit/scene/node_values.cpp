@@ -243,6 +243,7 @@ const NodeParam* find_param(const NodeKind& kind, std::string_view key) {
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  if (word.size() < 2) return "";  // every letter is near every other
   const auto nearest = nearest_word(word, known.data(), known.size());
   return nearest ? "; did you mean " + quoted(*nearest) + "?" : std::string();
 }

@@ -54,8 +54,10 @@ Node make_place(NodeInputs& in) {
   else if (in.has("axis"))
     in.warning("axis", "has no effect without turn_deg");
   const Eigen::Matrix3d matrix = turn / in.number("scale");
-  Node node = placed(in.node("of"), Frame(matrix, -(matrix.transpose() * move)));
-  return node;
+  const Vec3 offset = -(matrix.transpose() * move);
+  if (offset.allFinite()) return placed(in.node("of"), Frame(matrix, offset));
+  in.problem("move", scene_error::invalid_parameter, "is too far away for its scale, must be nearer");
+  return {};
 }
 
 constexpr double any_number = -std::numeric_limits<double>::max();
@@ -82,7 +84,12 @@ constexpr NodeParam place_params[] = {
               .min_allowed = true,
               .fallback = 0.0}},
     {.type = Type::number,
-     .info = {.name = "scale", .description = "s: how many times larger", .fallback = 1.0}},
+     .info = {.name = "scale",
+              .description = "s: how many times larger",
+              .min = 1e-30,
+              .max = 1e30,
+              .min_allowed = true,
+              .fallback = 1.0}},
 };
 
 constexpr std::array kinds = {
