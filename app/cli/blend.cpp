@@ -4,7 +4,6 @@
 #include "app/cli/verbs.hpp"
 #include "app/json/choices.hpp"
 #include "app/json/job_reader.hpp"
-#include "kernel/base/number_text.hpp"
 #include "kernel/base/parallel_for.hpp"
 
 namespace blendwright {
@@ -15,13 +14,6 @@ std::vector<OutputFormat> formats_named(const std::vector<std::string>& names) {
   for (const Choice<OutputFormat>& c : format_choices())
     if (std::find(names.begin(), names.end(), c.name) != names.end()) formats.push_back(c.value);
   return formats;
-}
-
-/// The time behind the last line, or below it where it would not fit.
-std::string with_seconds(std::string text, double seconds) {
-  const std::string time = number_text(seconds, 2) + " s\n";
-  const std::size_t start = text.rfind('\n') + 1;  // 0 when there is one line
-  return text + (text.size() - start + 3 + time.size() <= 81 ? "   " : "\n  ") + time;
 }
 
 }  // namespace

@@ -3,14 +3,16 @@
 #include "app/json/choices.hpp"
 #include "app/json/job_keys.hpp"
 #include "app/json/json_value.hpp"
+#include "app/json/scene_keys.hpp"
+#include "app/pipeline/mesh_job.hpp"
 #include "verify/report/blend_report.hpp"
 
 namespace blendwright {
 namespace {
 
-/// A row as `list` shows it.
+/// A row as `list` shows it; what is empty is not shown.
 struct Row {
-  std::string name, description, keys;
+  std::string name, description, keys, equation{}, source{}, family{};
 };
 using Rows = std::vector<Row>;
 
@@ -51,6 +53,40 @@ Rows shapes() {
   return rows;
 }
 
+/// Optional ones in brackets.
+std::string param_names(const NodeKind& kind) {
+  std::string names;
+  for (const NodeParam& p : kind.params) {
+    const std::string key(p.info.name);
+    names += (names.empty() ? "" : ", ") + (is_required(p) ? key : "[" + key + "]");
+  }
+  return names;
+}
+
+/// The parameters of a kind of node, for programs.
+JsonValue params_json(std::string_view kind) {
+  JsonValue::Array params;
+  for (const KeyInfo& k : node_object(*find_node_kind(kind)).keys)
+    if (k.name != "kind")
+      params.push_back(JsonValue::object(
+          {{"name", k.name}, {"type", k.type}, {"description", k.description}, {"required", k.required}}));
+  return params;
+}
+
+Rows nodes() {
+  Rows rows;
+  for (const NodeKind* kind : node_kinds())
+    rows.push_back({std::string(kind->name), std::string(kind->description), param_names(*kind),
+                    std::string(kind->equation), std::string(kind->source), std::string(name(kind->family))});
+  return rows;
+}
+
+Rows named_rows(std::span<const NamedRow> all) {
+  Rows rows;
+  for (const NamedRow& r : all) rows.push_back({std::string(r.name), std::string(r.description), ""});
+  return rows;
+}
+
 Rows checks() {
   Rows rows;
   for (const CheckInfo& c : checks_table())
@@ -79,6 +115,9 @@ constexpr Family families[] = {
     {"exporters", "formats of the output", [] { return words("format"); }},
     {"schemas", "STEP application protocols", [] { return words("step_schema"); }},
     {"checks", "what is measured and judged", checks},
+    {"nodes", "kinds of node in a scene of soft objects", nodes},
+    {"meshes", "formats that meshes of scenes are written in", [] { return named_rows(mesh_formats()); }},
+    {"columns", "what is known of each point of such a mesh", [] { return named_rows(mesh_columns()); }},
 };
 
 Rows family_rows() {
@@ -92,6 +131,14 @@ Rows rows_of(const std::string& name) {
   for (const Family& f : families)
     if (f.name == name) return f.rows();
   throw InputError("", "there is no family of this name");
+}
+
+/// What a row has besides its name and description.
+std::vector<std::pair<std::string, std::string>> further(const Row& r) {
+  std::vector<std::pair<std::string, std::string>> all{
+      {"family", r.family}, {"equation", r.equation}, {"keys", r.keys}, {"source", r.source}};
+  std::erase_if(all, [](const auto& part) { return part.second.empty(); });
+  return all;
 }
 
 }  // namespace
@@ -109,15 +156,20 @@ int list(const ListCommand& command, const Console& console) {
       JsonValue::Array items;
       for (const Row& r : rows) {
         items.push_back(JsonValue::object({{"name", r.name}, {"description", r.description}}));
-        if (!r.keys.empty()) items.back().add("keys", r.keys);
+        for (const auto& [what, text] : further(r)) items.back().add(what, text);
+        if (!r.family.empty()) items.back().add("parameters", params_json(r.name));
       }
       console.out() << json_text(std::move(items));
       return exit_done;
     }
     TextRows table;
+    std::string family;
     for (const Row& r : rows) {
+      if (!r.family.empty() && r.family != family) table.push_back({r.family + ":"});
+      family = r.family;
       table.push_back({r.name, r.description});
-      if (!r.keys.empty()) table.push_back({"", "keys: " + r.keys});
+      for (const auto& [what, text] : further(r))
+        if (what != "family") table.push_back({"", what + ": " + text});
     }
     console.out() << aligned(table);
     return exit_done;

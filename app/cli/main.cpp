@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/cli/arguments.hpp"
 #include "app/cli/verbs.hpp"
 #include "app/json/choices.hpp"
 
@@ -14,10 +15,14 @@ std::span<const VerbInfo> verbs_table() {
        "blendwright blend joint.json -o out --format step,vtp"},
       {"verify", "build the blends of a job and verify them, in memory",
        "blendwright verify joint.json --tol-angle-deg 0.01"},
+      {"mesh", "turn the solid of a scene of soft objects into triangles",
+       "blendwright mesh scene.json -o body.vtp -o body.stl --cells 256"},
+      {"eval", "evaluate the field of a scene at given points",
+       "blendwright eval scene.json --points points.csv -o values.csv"},
       {"inspect", "list the faces and edges of a STEP file, with selectors to paste into a job",
        "blendwright inspect part.step"},
-      {"list", "list what a job may choose from", "blendwright list primaries"},
-      {"schema", "print the JSON Schema of a job or a report, for editors",
+      {"list", "list what a job or a scene may choose from", "blendwright list primaries"},
+      {"schema", "print the JSON Schema of a job, a scene or a report, for editors",
        "blendwright schema job > job.schema.json"}};
   return verbs;
 }
@@ -108,6 +113,66 @@ void add_verify(CLI::App& app, VerifyCommand& command, const Console& console, i
   sub->callback([&] { code = verify(command, console); });
 }
 
+/// A check that is passed when `read` returns; else the message is what its InputError says.
+template <class Read>
+CLI::Validator readable(Read read, const char* what) {
+  return CLI::Validator(
+      [read](std::string& text) -> std::string {
+        try {
+          static_cast<void>(read(text));
+          return "";
+        } catch (const InputError& e) {
+          return e.problems().front().message;
+        }
+      },
+      what);
+}
+
+void add_mesh(CLI::App& app, MeshCommand& command, const Console& console, int& code) {
+  CLI::App* sub = verb(app, "mesh");
+  sub->add_option("SCENE", command.scene, "scene file; - reads standard input")->required();
+  sub->add_option("-o,--output", command.outputs,
+                  "file to write, .vtp, .stl, .obj, .ply or .png; may be given again")
+      ->allow_extra_args(false);
+  sub->add_option("--solid", command.solid, "node to mesh instead of the scene's solid");
+  CLI::Option* cell = sub->add_option("--cell", command.cell, "edge length of a cell, model units");
+  cell->check(positive());
+  sub->add_option("--cells", command.cells, "cells along the longest side instead of --cell")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1 << 20))
+      ->excludes(cell);
+  sub->add_option("--box", command.box, "box to mesh, x0,y0,z0,x1,y1,z1; default: around the solid")
+      ->check(readable(box_argument, "BOX"));
+  sub->add_option("--at-box", command.at_box, "where the box cuts the solid: cap closes it, open does not")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"cap", "open"}));
+  sub->add_option("--max-memory", command.max_memory, "refuse what needs more, in bytes, or with K, M or G")
+      ->capture_default_str()
+      ->check(readable(memory_argument, "SIZE"));
+  sub->add_option("--colour", command.colour, "column that colours a .png; \"list columns\" names them");
+  sub->add_flag("--force", command.force, "replace files that exist");
+  CLI::Option* json = sub->add_flag("--json", command.json, "print JSON instead of the table");
+  sub->add_flag("--times", command.times, "time of each stage in the JSON")->needs(json);
+  sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
+  add_threads(sub, command.threads);
+  sub->callback([&] { code = mesh(command, console); });
+}
+
+void add_eval(CLI::App& app, EvalCommand& command, const Console& console, int& code) {
+  CLI::App* sub = verb(app, "eval");
+  sub->add_option("SCENE", command.scene, "scene file; - reads standard input")->required();
+  sub->add_option("--points", command.points,
+                  "points, as .vtp or as lines of x, y, z; - reads standard input")
+      ->required();
+  sub->add_option("--solid", command.solid, "node to evaluate instead of the scene's solid");
+  CLI::Option* output = sub->add_option("-o,--output", command.output, "file to write, .csv or .vtp");
+  sub->add_flag("--force", command.force, "replace a file that exists");
+  sub->add_flag("--json", command.json, "print JSON instead of lines")->excludes(output);
+  sub->add_flag("--quiet", command.quiet, "no summary, no warnings, no progress");
+  add_threads(sub, command.threads);
+  sub->callback([&] { code = eval(command, console); });
+}
+
 void add_inspect(CLI::App& app, InspectCommand& command, const Console& console, int& code) {
   CLI::App* sub = verb(app, "inspect");
   sub->add_option("PART", command.part, "STEP file")->required();
@@ -125,24 +190,31 @@ void add_list(CLI::App& app, ListCommand& command, const Console& console, int& 
 
 void add_schema(CLI::App& app, SchemaCommand& command, const Console& console, int& code) {
   CLI::App* sub = verb(app, "schema");
-  sub->add_option("OF", command.of, "job or report")->required()->check(CLI::IsMember({"job", "report"}));
+  sub->add_option("OF", command.of, "job, scene or report")
+      ->required()
+      ->check(CLI::IsMember({"job", "scene", "report"}));
   sub->callback([&] { code = schema(command, console); });
 }
 
 int run(int argc, char** argv) {
   const Console console = Console::of_process();
-  CLI::App app{"Makes and proves blend surfaces between CAD surfaces.", "blendwright"};
+  CLI::App app{"Makes and proves blend surfaces between CAD surfaces, and meshes soft objects.",
+               "blendwright"};
   app.set_version_flag("--version", "blendwright " BLENDWRIGHT_VERSION);
   app.require_subcommand(1);
   app.footer(footer());
   int code = exit_done;
   BlendCommand blend_command;
   VerifyCommand verify_command;
+  MeshCommand mesh_command;
+  EvalCommand eval_command;
   InspectCommand inspect_command;
   ListCommand list_command;
   SchemaCommand schema_command;
   add_blend(app, blend_command, console, code);
   add_verify(app, verify_command, console, code);
+  add_mesh(app, mesh_command, console, code);
+  add_eval(app, eval_command, console, code);
   add_inspect(app, inspect_command, console, code);
   add_list(app, list_command, console, code);
   add_schema(app, schema_command, console, code);

@@ -112,13 +112,6 @@ std::string failed_checks(const JobResult& result) {
   return text;
 }
 
-std::string size_text(std::size_t bytes) {
-  if (bytes < 1000) return std::to_string(bytes) + " B";
-  const bool mega = bytes >= 1000 * 1000;
-  return number_text(std::round(static_cast<double>(bytes) / (mega ? 1e5 : 1e3)) / (mega ? 10.0 : 1.0)) +
-         (mega ? " MB" : " kB");
-}
-
 /// "all within tolerance", "1 not within tolerance, 1 not measured (no primary)", ...
 std::string verdict(const std::vector<SeamRow>& rows, bool good) {
   const auto count = [&](auto is) {
@@ -184,15 +177,37 @@ std::string run_table(const JobResult& result, const JobOutputs* outputs, const 
   return text;
 }
 
-std::string written_files(const JobOutputs& outputs, StepSchema schema) {
+std::string size_text(std::size_t bytes) {
+  if (bytes < 1000) return std::to_string(bytes) + " B";
+  const bool mega = bytes >= 1000 * 1000;
+  return number_text(std::round(static_cast<double>(bytes) / (mega ? 1e5 : 1e3)) / (mega ? 10.0 : 1.0)) +
+         (mega ? " MB" : " kB");
+}
+
+std::string written_files(std::span<const WrittenFile> files,
+                          const std::function<std::string(const WrittenFile&)>& remark) {
   WrappedList list("wrote ");
-  for (const WrittenFile& f : outputs.files) {
-    // The first one with its folder, which is that of all.
-    std::string word = &f == &outputs.files.front() ? f.path.string() : f.path.filename().string();
-    if (f.kind == "step") word += std::string(" (") + name(schema) + ", " + size_text(f.bytes) + ")";
+  for (const WrittenFile& f : files) {
+    // Those in the folder of the first one need only their name.
+    const bool named = &f != &files.front() && f.path.parent_path() == files.front().path.parent_path();
+    std::string word = named ? f.path.filename().string() : f.path.string();
+    const std::string text = remark(f);
+    if (!text.empty()) word.append(" (").append(text).append(1, ')');
     list.add(word);
   }
   return list.text();
+}
+
+std::string written_files(const JobOutputs& outputs, StepSchema schema) {
+  return written_files(outputs.files, [&](const WrittenFile& f) {
+    return f.kind == "step" ? name(schema) + (", " + size_text(f.bytes)) : std::string();
+  });
+}
+
+std::string with_seconds(std::string text, double seconds) {
+  const std::string time = number_text(seconds, 2) + " s\n";
+  const std::size_t start = text.rfind('\n') + 1;  // 0 when there is one line
+  return text + (text.size() - start + 3 + time.size() <= 81 ? "   " : "\n  ") + time;
 }
 
 }  // namespace blendwright

@@ -1,5 +1,7 @@
 #pragma once
 // What a person reads after a run.
+#include <functional>
+#include <span>
 #include <string>
 
 #include "app/pipeline/write_outputs.hpp"
@@ -13,5 +15,12 @@ namespace blendwright {
                                     const std::string& job_file);
 /// "wrote out/x.step (AP242, 41 kB), x.report.json": every file by its name, wrapped at 80 columns.
 [[nodiscard]] std::string written_files(const JobOutputs& outputs, StepSchema schema);
+/// The same with a remark on each file, unless it is empty.
+[[nodiscard]] std::string written_files(std::span<const WrittenFile> files,
+                                        const std::function<std::string(const WrittenFile&)>& remark);
+/// "812 B", "41 kB", "1.2 MB".
+[[nodiscard]] std::string size_text(std::size_t bytes);
+/// The time behind the last line, or below it where it would not fit.
+[[nodiscard]] std::string with_seconds(std::string text, double seconds);
 
 }  // namespace blendwright

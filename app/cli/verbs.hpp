@@ -35,6 +35,27 @@ struct VerifyCommand {
 /// Builds and verifies in memory.
 [[nodiscard]] int verify(const VerifyCommand& command, const Console& console);
 
+struct MeshCommand {
+  std::string scene;  ///< "-": standard input
+  std::vector<std::string> outputs;
+  std::string solid;  ///< empty: the scene's
+  std::optional<double> cell;
+  int cells = 128;
+  std::string box, at_box = "cap", max_memory = "4G", colour;
+  bool force = false, json = false, times = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Makes a mesh of a scene's solid, writes and measures it.
+[[nodiscard]] int mesh(const MeshCommand& command, const Console& console);
+
+struct EvalCommand {
+  std::string scene, points, solid, output;  ///< output empty: standard output
+  bool force = false, json = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Evaluates a scene's field at given points.
+[[nodiscard]] int eval(const EvalCommand& command, const Console& console);
+
 struct InspectCommand {
   std::string part;
   bool json = false;
@@ -51,7 +72,7 @@ struct ListCommand {
 [[nodiscard]] std::vector<std::string> listed_families();
 
 struct SchemaCommand {
-  std::string of;  ///< "job" or "report"
+  std::string of;  ///< "job", "scene" or "report"
 };
 /// Prints a JSON Schema.
 [[nodiscard]] int schema(const SchemaCommand& command, const Console& console);

@@ -44,27 +44,27 @@ std::string type_text(const NodeParam& p) {
   const std::string n = std::to_string(p.count);
   switch (p.type) {
     case Type::number:
-      return "number";
+      return "a number";
     case Type::integer:
-      return "whole number";
+      return "a whole number";
     case Type::word:
       return listed({p.words.begin(), p.words.end()});
     case Type::point:
-      return "point [x, y, z]";
+      return "a point [x, y, z]";
     case Type::points:
-      return "list of points [x, y, z]";
+      return "a list of points [x, y, z]";
     case Type::numbers:
-      return "list of " + n + " numbers";
+      return "a list of " + n + " numbers";
     case Type::rows:
       return n + " rows of " + std::to_string(p.columns) + " numbers";
     case Type::formulas:
-      return "list of " + n + " formulas of t";
+      return "a list of " + n + " formulas of t";
     case Type::node:
-      return "node: a name or an object";
+      return "a node: its name or an object";
     case Type::nodes:
-      return "list of nodes: names or objects";
+      return "a list of nodes: names or objects";
     case Type::number_or_contour:
-      return "number or {\"contour\": node}";
+      return "a number or {\"contour\": node}";
   }
   throw std::logic_error("type of a node's parameter");
 }

@@ -10,7 +10,7 @@ namespace blendwright {
 [[nodiscard]] const ObjectInfo& scene_object();
 /// A node of this kind, "node <kind>": "kind", then its parameters with what they take.
 [[nodiscard]] ObjectInfo node_object(const NodeKind& kind);
-/// What a value of the parameter is: "number", "point", "one of ...".
+/// What a value of the parameter is: "a number", "a point [x, y, z]", ""blanc" or "wyvill"".
 [[nodiscard]] std::string type_text(const NodeParam& param);
 [[nodiscard]] bool is_required(const NodeParam& param);
 

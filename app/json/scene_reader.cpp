@@ -130,7 +130,7 @@ class NodesReader {
         if (value.members()) return read_contour(value, where);
         return as_value(reading_.number(value, where));
     }
-    reading_.problem(where, described(value) + ", must be a " + type_text(p));
+    reading_.problem(where, described(value) + ", must be " + type_text(p));
     return std::nullopt;
   }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Which files a job writes, and how they appear together: everything is made in a hidden folder beside its
-// final place and moved there when all of it is whole.
+// Which files a job writes.
 #include <filesystem>
 #include <vector>
 
@@ -19,28 +18,5 @@ struct OutputPlan {
 };
 [[nodiscard]] OutputPlan plan_outputs(const JobResult& result, const Assembly& assembly,
                                       const std::filesystem::path& folder);
-
-/// Throws IoError naming the first file that exists already.
-void refuse_existing(const OutputPlan& plan);
-
-/// A hidden folder inside `folder` (made when missing); publish() moves files out of it, the destructor
-/// removes it, and `folder` too when it was made here and nothing was published. Throws IoError.
-class StagingFolder {
- public:
-  explicit StagingFolder(const std::filesystem::path& folder);
-  ~StagingFolder();
-  StagingFolder(const StagingFolder&) = delete;
-  StagingFolder& operator=(const StagingFolder&) = delete;
-  /// Where to write the file whose final place is `file`.
-  [[nodiscard]] std::filesystem::path of(const std::filesystem::path& file) const {
-    return path_ / file.filename();
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  void publish(const std::vector<std::filesystem::path>& files);
-
- private:
-  std::filesystem::path folder_, path_;
-  bool made_ = false, published_ = false;
-};
 
 }  // namespace blendwright

@@ -1,7 +1,6 @@
 #include "app/pipeline/run_job.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/pipeline/boundary_strip.hpp"
 #include "app/pipeline/build_primaries.hpp"
@@ -12,20 +11,6 @@ namespace blendwright {
 namespace {
 
 constexpr std::array<const char*, 2> side_names{"from", "to"};
-
-/// Seconds since construction or the last lap.
-class StopWatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double s = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return s;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 const BuiltPrimary* find(const std::vector<BuiltPrimary>& primaries, const std::string& name) {
   const auto it =

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/pipeline/job.hpp"
+#include "app/pipeline/stage_time.hpp"
 #include "kernel/base/progress.hpp"
 #include "parametric/fit/blend_fit.hpp"
 #include "verify/report/blend_report.hpp"
@@ -19,11 +20,6 @@ struct BlendResult {
   BlendFit fit;  ///< exported
   std::array<std::optional<Surface>, 2> primaries;
   std::vector<BlendReport> stages;  ///< formula, fitted; write_outputs adds step
-};
-
-struct StageTime {
-  std::string stage;
-  double seconds = 0.0;
 };
 
 struct JobResult {

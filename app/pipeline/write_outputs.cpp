@@ -1,12 +1,12 @@
 #include "app/pipeline/write_outputs.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/json/job_reader.hpp"
 #include "app/pipeline/output_plan.hpp"
 #include "app/pipeline/result_meshes.hpp"
 #include "app/pipeline/result_pictures.hpp"
+#include "app/pipeline/staging.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/base/text_file.hpp"
 #include "kernel/brep/shape_mesh.hpp"
@@ -124,14 +124,6 @@ void write_meshes(const JobResult& result, const OutputPlan& plan, const Meshes&
   }
 }
 
-/// An error that names a file of the staging folder names its final place instead.
-IoError with_final_names(const IoError& error, const fs::path& staging, const fs::path& folder) {
-  std::string text = error.what();
-  for (std::size_t at = 0; (at = text.find(staging.string(), at)) != std::string::npos;)
-    text.replace(at, staging.string().size(), folder.string());
-  return IoError(text);
-}
-
 /// The joined faces; empty, with the reason in the outputs, when they do not fit together.
 std::optional<AssemblyResult> join(JobResult& result, const Assembly& assembly, JobOutputs& outputs) {
   try {
@@ -160,11 +152,11 @@ void write_joined(JobResult& result, const OutputPlan& plan, const Shape& shape,
 }  // namespace
 
 JobOutputs write_outputs(JobResult& result, const WriteOptions& options, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+  StopWatch watch;
   JobOutputs outputs;
   const Assembly assembly = assembly_of(result);
   const OutputPlan plan = plan_outputs(result, assembly, options.folder);
-  if (!options.overwrite) refuse_existing(plan);
+  if (!options.overwrite) refuse_existing(plan.all());
   StagingFolder staging(options.folder);
   try {
     progress.at(0.5, "joining faces");
@@ -177,7 +169,7 @@ JobOutputs write_outputs(JobResult& result, const WriteOptions& options, const P
       if (!plan.picture.empty()) write_pictures(result, plan, meshes, staging, outputs);
     }
     result.times.push_back(
-        {"writing", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+        {"writing", watch.lap()});
     for (WrittenFile& file : outputs.files)
       file.bytes = static_cast<std::size_t>(fs::file_size(staging.of(file.path)));
     write_text_file(staging.of(plan.report), report_json(result, &outputs, options.times));
@@ -187,7 +179,7 @@ JobOutputs write_outputs(JobResult& result, const WriteOptions& options, const P
     for (const WrittenFile& file : outputs.files) files.push_back(file.path);
     staging.publish(files);
   } catch (const IoError& e) {
-    throw with_final_names(e, staging.path(), options.folder);
+    throw staging.with_final_names(e);
   }
   return outputs;
 }

@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "app/pipeline/run_job.hpp"
+#include "app/pipeline/staging.hpp"
 
 namespace blendwright {
-
-struct WrittenFile {
-  std::filesystem::path path;
-  std::string kind;  ///< "step", "vtp", "png", "stl", "obj", "report"
-  std::size_t bytes = 0;
-};
 
 struct JobOutputs {
   std::vector<WrittenFile> files;

@@ -2,14 +2,13 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <array>
 #include <chrono>
-#include <thread>
 
 #include "app/json/json_value.hpp"
 #include "tests/app/program.hpp"
+#include "tests/app/running.hpp"
 
 namespace blendwright::test {
 namespace {
@@ -41,7 +40,7 @@ TEST(Program, SaysItsVersionAndHelpsWithAnExamplePerVerb) {
   EXPECT_THAT(run_program("--version").out, HasSubstr("blendwright "));
   const Outcome help = run_program("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* verb : {"blend", "verify", "inspect", "list", "schema"}) {
+  for (const char* verb : {"blend", "verify", "mesh", "eval", "inspect", "list", "schema"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("  blendwright ") + verb + " "));
     const Outcome own = run_program(std::string(verb) + " --help");
     EXPECT_EQ(own.code, 0);
@@ -50,11 +49,35 @@ TEST(Program, SaysItsVersionAndHelpsWithAnExamplePerVerb) {
 }
 
 TEST(Program, RefusesWrongUsageWithCode2AndNothingOnStandardOutput) {
-  for (const char* arguments :
-       {"", "blnd x.json", "blend", "blend x.json --format iges", "blend x.json --threads 0", "list surfaces",
-        "blend x.json -o ''", "verify x.json --times", "schema", "schema all",
-        "verify x.json --tol-position -1", "verify x.json --tol-angle-deg nan?",
-        "blend x.json --no-such-flag", "inspect"}) {
+  for (const char* arguments : {"",
+                                "blnd x.json",
+                                "blend",
+                                "blend x.json --format iges",
+                                "blend x.json --threads 0",
+                                "list surfaces",
+                                "blend x.json -o ''",
+                                "verify x.json --times",
+                                "schema",
+                                "schema all",
+                                "verify x.json --tol-position -1",
+                                "verify x.json --tol-angle-deg nan?",
+                                "blend x.json --no-such-flag",
+                                "inspect",
+                                "mesh",
+                                "mesh x.json --cell 0",
+                                "mesh x.json --cells 0",
+                                "mesh x.json --cell 1 --cells 8",
+                                "mesh x.json --box 0,0,0,1,1",
+                                "mesh x.json --box 0,0,0,1,0,1",
+                                "mesh x.json --box 0,0,0,1,1,nan",
+                                "mesh x.json --at-box close",
+                                "mesh x.json --max-memory much",
+                                "mesh x.json --max-memory -1G",
+                                "mesh x.json --times",
+                                "mesh x.json --threads 0",
+                                "eval x.json",
+                                "eval x.json --points",
+                                "eval x.json --points p.csv -o v.csv --json"}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.code, 2);
@@ -64,7 +87,7 @@ TEST(Program, RefusesWrongUsageWithCode2AndNothingOnStandardOutput) {
 }
 
 TEST(Program, ListsEveryFamilyAsTextAndAsJson) {
-  const std::array<std::array<const char*, 2>, 14> rows{{{"primaries", "elliptic_paraboloid"},
+  const std::array<std::array<const char*, 2>, 17> rows{{{"primaries", "elliptic_paraboloid"},
                                                          {"continuities", "G2"},
                                                          {"keeps", "auto"},
                                                          {"correspondences", "minimal_twist"},
@@ -77,7 +100,10 @@ TEST(Program, ListsEveryFamilyAsTextAndAsJson) {
                                                          {"shapes", "tension"},
                                                          {"exporters", "vtp"},
                                                          {"checks", "gap"},
-                                                         {"families", "tension1"}}};
+                                                         {"families", "tension1"},
+                                                         {"nodes", "soft_object"},
+                                                         {"meshes", ".ply"},
+                                                         {"columns", "mean_curvature"}}};
   for (const auto& [family, member] : rows) {
     SCOPED_TRACE(family);
     const Outcome text = run_program(std::string("list ") + family);
@@ -101,7 +127,7 @@ TEST(Program, ListsTheFamiliesWhenNoneIsNamed) {
   const Outcome text = run_program("list");
   EXPECT_EQ(text.code, 0);
   const std::vector<std::string> families = names_of(parse_json(run_program("list --json").out), "name");
-  EXPECT_EQ(families.size(), 14u);
+  EXPECT_EQ(families.size(), 17u);
   for (const std::string& family : families) {
     EXPECT_THAT(text.out, HasSubstr("  " + family + " "));
     EXPECT_EQ(run_program("list " + family).code, 0);
@@ -175,8 +201,8 @@ TEST(Program, WarnsOfAPrimaryThatNoBlendUses) {
   EXPECT_THAT(run_program("verify " + example("coaxial-cylinders")).err, IsEmpty());
 }
 
-TEST(Program, PrintsBothSchemas) {
-  for (const char* of : {"job", "report"}) {
+TEST(Program, PrintsEverySchema) {
+  for (const char* of : {"job", "scene", "report"}) {
     const Outcome outcome = run_program(std::string("schema ") + of);
     EXPECT_EQ(outcome.code, 0);
     EXPECT_NE(parse_json(outcome.out).find("$defs"), nullptr);
@@ -416,56 +442,14 @@ TEST(Program, ColoursMessagesOnATerminalUnlessNoColorIsSet) {
   EXPECT_THAT(plain, AllOf(HasSubstr("missing.json"), Not(HasSubstr("\x1b"))));
 }
 
-/// The program with a pipe to its standard input.
-class Running {
- public:
-  Running(const std::string& job_text, const fs::path& folder) {
-    std::array<int, 2> pipe{};
-    if (::pipe(pipe.data()) != 0) throw std::runtime_error("no pipe");
-    input_ = pipe[1];
-    process_ = ::fork();
-    if (process_ == 0) {
-      ::dup2(pipe[0], 0);
-      ::close(pipe[0]);
-      ::close(pipe[1]);
-      const int err = ::open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
-      ::dup2(err, 1);
-      ::dup2(err, 2);
-      ::execl(BLENDWRIGHT_PROGRAM, "blendwright", "blend", "-", "-o", (folder / "out").c_str(), nullptr);
-      ::_exit(127);
-    }
-    ::close(pipe[0]);
-    if (::write(input_, job_text.data(), job_text.size()) < 0)
-      throw std::runtime_error("cannot write to the pipe");
-  }
-  /// Waits until the program handles this signal, as the kernel tells.
-  [[nodiscard]] bool handles(int signal) const {
-    for (int i = 0; i < 1000; ++i) {
-      const std::string status = content("/proc/" + std::to_string(process_) + "/status");
-      const std::size_t at = status.find("SigCgt:");
-      if (at != std::string::npos &&
-          (std::strtoull(status.c_str() + at + 7, nullptr, 16) >> (signal - 1) & 1) != 0)
-        return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
-  void send(int signal) const { ::kill(process_, signal); }
-  [[nodiscard]] int finish() {
-    ::close(input_);
-    int status = 0;
-    ::waitpid(process_, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t process_ = -1;
-  int input_ = -1;
-};
+Running blending(const fs::path& folder) {
+  return Running({"blend", "-", "-o", (folder / "out").string()},
+                 content(source() / "examples/specs/coaxial-cylinders.json"), folder / "err");
+}
 
 TEST(Program, StopsAtCtrlCAndLeavesNothing) {
   const Folder folder;
-  Running running(content(source() / "examples/specs/coaxial-cylinders.json"), folder.path());
+  Running running = blending(folder.path());
   ASSERT_TRUE(running.handles(SIGINT));
   running.send(SIGINT);
   EXPECT_EQ(running.finish(), 4);
@@ -475,7 +459,7 @@ TEST(Program, StopsAtCtrlCAndLeavesNothing) {
 
 TEST(Program, RunsToTheEndWhenNobodyStopsIt) {  // the negative control of the test above
   const Folder folder;
-  Running running(content(source() / "examples/specs/coaxial-cylinders.json"), folder.path());
+  Running running = blending(folder.path());
   ASSERT_TRUE(running.handles(SIGINT));
   EXPECT_EQ(running.finish(), 0) << content(folder / "err");
   EXPECT_THAT(folder.files(), Contains("out/job.step"));
