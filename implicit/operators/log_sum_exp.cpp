@@ -1,0 +1,72 @@
+#include "implicit/operators/log_sum_exp.hpp"
+
+#include <algorithm>
+
+#include "implicit/number/targets.hpp"
+#include "implicit/operators/range_rules.hpp"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "implicit/operators/log_sum_exp.cpp"
+#include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
+
+#include "implicit/eval/kernel-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace blendwright::detail::HWY_NAMESPACE {
+
+template <class T>
+HWY_INLINE T signed_argument(const LogSumExp& b, const Inputs<T>& in, std::size_t i) {
+  return in.arg(i) * argument_sign(b.role, i);
+}
+
+template <class T>
+HWY_INLINE T evaluate(const LogSumExp& b, const Inputs<T>& in) {
+  using L = LaneOf<T>;
+  T least = signed_argument(b, in, 0);
+  for (std::size_t i = 1; i < in.args(); ++i) least = smaller(least, signed_argument(b, in, i));
+  const L most = std::numeric_limits<double>::max(), v = value_of(least);
+  const auto finite = lane::abs(v) <= most;
+  const L m = select(finite, v, L(0.0));  // counts as constant: the union does not depend on it
+  T sum = exponential((signed_argument(b, in, 0) - constant<T>(m)) * -b.n);
+  for (std::size_t i = 1; i < in.args(); ++i)
+    sum = sum + exponential((signed_argument(b, in, i) - constant<T>(m)) * -b.n);
+  const T all = logarithm(choose<T>(finite, sum, T(1.0))) * (-1.0 / b.n) + constant<T>(m);
+  return choose<T>(finite, all, least) * result_sign(b.role);
+}
+
+KernelSet log_sum_exp_simd() { return kernel_set<LogSumExp, Simd>(); }
+#if HWY_ONCE
+KernelSet log_sum_exp_scalar() { return kernel_set<LogSumExp, double>(); }
+#endif
+
+}  // namespace blendwright::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace blendwright {
+namespace detail {
+HWY_EXPORT(log_sum_exp_simd);
+
+/// The values lie around zero: what rounding adds is measured by the arguments and by ln k/n.
+static Range log_sum_exp_range(const void* body, const Box&, std::span<const Range> args) {
+  const auto& b = *static_cast<const LogSumExp*>(body);
+  const bool first = b.role != ZeroRole::make_difference || args.size() < 2;
+  const Range r = first ? ends(op_for<LogSumExp>(), body, args, {true})
+                        : ends(op_for<LogSumExp>(), body, args, {true, false});
+  double size = std::log(static_cast<double>(args.size())) / b.n;
+  for (const double x : {r.lo, r.hi})
+    if (std::isfinite(x)) size = std::max(size, std::abs(x));
+  return spread(r, 0.0, range_slack * size);
+}
+
+}  // namespace detail
+
+template <>
+const Op& op_for<detail::LogSumExp>() {
+  using namespace detail;
+  static const Op op{"log_sum_exp", HWY_DYNAMIC_DISPATCH(log_sum_exp_simd)(),
+                     HWY_STATIC_DISPATCH(log_sum_exp_scalar)(), log_sum_exp_range};
+  return op;
+}
+
+}  // namespace blendwright
+#endif
