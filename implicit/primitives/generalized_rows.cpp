@@ -3,6 +3,7 @@
 #include "implicit/primitives/generalized_distance.hpp"
 #include "implicit/primitives/primitive_inputs.hpp"
 #include "implicit/primitives/primitive_tables.hpp"
+#include "kernel/base/number_text.hpp"
 
 namespace blendwright::detail {
 namespace {
@@ -12,12 +13,26 @@ constexpr std::array generalized_params{
               .info = {.name = "normals", .description = "unit normals n_i of the facets"}},
     exponent_param("n", "exponent n; the larger, the sharper the edges", 1.0)};
 
+/// The normals, with one warning when any had to be normalised.
+std::vector<Vec3> read_normals(NodeInputs& in) {
+  std::vector<Vec3> normals;
+  std::string first;
+  int changed = 0;
+  for (const std::vector<double>& row : in.rows("normals")) {
+    const int index = static_cast<int>(normals.size());
+    const Direction d = checked_direction(in, "normals", {row[0], row[1], row[2]}, index);
+    normals.push_back(d.unit.normalized());
+    if (d.was_unit()) continue;
+    if (changed++ == 0) first = "number " + number_text(index) + " has length " + number_text(d.length, 6);
+  }
+  if (changed > 0)
+    in.warning("normals", "are not all of length 1 (" + first + "); " + number_text(changed) + " of " +
+                              number_text(static_cast<double>(normals.size())) + " normalised");
+  return normals;
+}
+
 Node make_generalized(NodeInputs& in) {
-  GeneralizedDistance body;
-  for (const std::vector<double>& row : in.rows("normals"))
-    body.normals.push_back(
-        checked_direction(in, "normals", {row[0], row[1], row[2]}, static_cast<int>(body.normals.size()))
-            .normalized());
+  GeneralizedDistance body{read_normals(in), {}, {}};
   const double n = in.number("n");
   body.n = Power(n);
   body.inverse_n = Power(1.0 / n);

@@ -13,7 +13,7 @@ constexpr std::array plane_params{
 
 template <class Body>
 Node make_plane(NodeInputs& in, bool distance) {
-  const Vec3 normal = checked_direction(in, "normal", in.point("normal"));
+  const Vec3 normal = read_direction(in, "normal");
   Node node;
   node.distance = distance;
   node.ray_linear = distance;  // a signed function is homogeneous, but no ray-linear function into [0, inf)

@@ -13,18 +13,22 @@ double checked_length(NodeInputs& in, std::string_view key, double value, int in
   return 1.0;
 }
 
-Vec3 checked_direction(NodeInputs& in, std::string_view key, const Vec3& value, int index) {
+Direction checked_direction(NodeInputs& in, std::string_view key, const Vec3& value, int index) {
   const double largest = value.cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) {
     in.problem(key, scene_error::invalid_parameter, "is the zero vector, must have a direction", index);
-    return Vec3::UnitX();
+    return {};
   }
   const Vec3 rough = value / largest;  // its squares neither overflow nor underflow
-  const double length = largest * rough.norm();
-  if (std::abs(length - 1.0) <= 1e-9) return value;
-  const std::string which = index < 0 ? std::string() : "number " + number_text(index) + " ";
-  in.warning(key, which + "has length " + number_text(length, 6) + " and was normalised to 1");
-  return rough.normalized();
+  Direction d{value, largest * rough.norm()};
+  if (!d.was_unit()) d.unit = rough.normalized();
+  return d;
+}
+
+Vec3 read_direction(NodeInputs& in, std::string_view key) {
+  const Direction d = checked_direction(in, key, in.point(key));
+  if (!d.was_unit()) in.warning(key, "has length " + number_text(d.length, 6) + " and was normalised to 1");
+  return d.unit;
 }
 
 Vec3 read_point(NodeInputs& in, std::string_view key) {

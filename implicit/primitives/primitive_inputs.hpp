@@ -1,5 +1,7 @@
 #pragma once
 // What the rows of primitives share: parameters that are alike, and how their values are read.
+#include <cmath>
+
 #include "implicit/number/power.hpp"
 #include "implicit/scene/node.hpp"
 
@@ -31,9 +33,17 @@ inline constexpr double smallest_exponent = 0.05, largest_exponent = 1e6;
 [[nodiscard]] inline double read_length(NodeInputs& in, std::string_view key) {
   return checked_length(in, key, in.number(key));
 }
-/// A direction of a key: as it is when its length is 1 within 1e-9, else normalised with a warning; a problem
-/// when it is zero.
-[[nodiscard]] Vec3 checked_direction(NodeInputs& in, std::string_view key, const Vec3& value, int index = -1);
+/// A direction of a key: as it is when its length is 1 within 1e-9, else normalised; a problem when it is
+/// zero. index: the element of a list, -1 for the whole.
+struct Direction {
+  Vec3 unit = Vec3::UnitX();
+  double length = 1.0;  ///< as it was given
+  [[nodiscard]] bool was_unit() const { return std::abs(length - 1.0) <= 1e-9; }
+};
+[[nodiscard]] Direction checked_direction(NodeInputs& in, std::string_view key, const Vec3& value,
+                                          int index = -1);
+/// The direction of a key, with a warning when it had to be normalised.
+[[nodiscard]] Vec3 read_direction(NodeInputs& in, std::string_view key);
 /// A point of a key, with coordinates up to 1e30 in magnitude.
 [[nodiscard]] Vec3 read_point(NodeInputs& in, std::string_view key);
 

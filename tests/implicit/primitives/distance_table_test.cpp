@@ -142,7 +142,7 @@ TEST(Normals, OfAnotherLengthAreNormalisedWithAWarning) {
   const MadePrimitive ten =
       made("generalized_distance", {{"normals", Rows{{1, 0, 0}, {0, 2, 0}, {0, 0, 1}}}, {"n", 2.0}});
   ASSERT_EQ(ten.warnings.size(), 1u);
-  EXPECT_EQ(ten.warnings[0].message, "number 1 has length 2 and was normalised to 1");
+  EXPECT_EQ(ten.warnings[0].message, "are not all of length 1 (number 1 has length 2); 1 of 3 normalised");
   EXPECT_NEAR(value_at(*ten.tape, {0, 3, 4}), 5.0, 1e-14);
 }
 
