@@ -15,102 +15,10 @@
 #define BLENDWRIGHT_NUMBER_INL_HPP
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
-#include <hwy/highway.h>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-
-#include "implicit/number/power.hpp"
+#include "implicit/number/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace blendwright::detail::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-// ---- Lanes: double and Simd -------------------------------------------------------------------------
-
-using SimdTag = hn::ScalableTag<double>;
-
-/// The truth of a comparison, per lane.
-struct SimdMask {
-  hn::Mask<SimdTag> m;
-};
-
-/// One vector of doubles. Mixes with double.
-struct Simd {
-  hn::Vec<SimdTag> v;
-  HWY_INLINE Simd() : v(hn::Zero(SimdTag())) {}
-  HWY_INLINE Simd(double x) : v(hn::Set(SimdTag(), x)) {}  // NOLINT: constants mix freely
-  HWY_INLINE explicit Simd(hn::Vec<SimdTag> x) : v(x) {}
-};
-
-HWY_INLINE Simd operator+(Simd a, Simd b) { return Simd(hn::Add(a.v, b.v)); }
-HWY_INLINE Simd operator-(Simd a, Simd b) { return Simd(hn::Sub(a.v, b.v)); }
-HWY_INLINE Simd operator*(Simd a, Simd b) { return Simd(hn::Mul(a.v, b.v)); }
-HWY_INLINE Simd operator/(Simd a, Simd b) { return Simd(hn::Div(a.v, b.v)); }
-HWY_INLINE Simd operator-(Simd a) { return Simd(hn::Neg(a.v)); }
-HWY_INLINE SimdMask operator<(Simd a, Simd b) { return {hn::Lt(a.v, b.v)}; }
-HWY_INLINE SimdMask operator<=(Simd a, Simd b) { return {hn::Le(a.v, b.v)}; }
-HWY_INLINE SimdMask operator>(Simd a, Simd b) { return {hn::Gt(a.v, b.v)}; }
-HWY_INLINE SimdMask operator>=(Simd a, Simd b) { return {hn::Ge(a.v, b.v)}; }
-HWY_INLINE SimdMask operator==(Simd a, Simd b) { return {hn::Eq(a.v, b.v)}; }
-HWY_INLINE SimdMask operator&&(SimdMask a, SimdMask b) { return {hn::And(a.m, b.m)}; }
-HWY_INLINE SimdMask operator||(SimdMask a, SimdMask b) { return {hn::Or(a.m, b.m)}; }
-HWY_INLINE SimdMask operator!(SimdMask a) { return {hn::Not(a.m)}; }
-HWY_INLINE Simd select(SimdMask m, Simd a, Simd b) { return Simd(hn::IfThenElse(m.m, a.v, b.v)); }
-HWY_INLINE double select(bool m, double a, double b) { return m ? a : b; }
-/// Whether the comparison holds in any lane, in all lanes.
-HWY_INLINE bool any(SimdMask m) { return !hn::AllFalse(SimdTag(), m.m); }
-HWY_INLINE bool all(SimdMask m) { return hn::AllTrue(SimdTag(), m.m); }
-HWY_INLINE bool any(bool m) { return m; }
-HWY_INLINE bool all(bool m) { return m; }
-
-/// a * b + c, rounded once where the instruction set can.
-HWY_INLINE Simd multiply_add(Simd a, Simd b, Simd c) { return Simd(hn::MulAdd(a.v, b.v, c.v)); }
-HWY_INLINE double multiply_add(double a, double b, double c) { return a * b + c; }
-
-// Elementary functions of lanes; errors of the vector ones are at most 4 ulp (Highway's contrib/math).
-namespace lane {
-HWY_INLINE Simd abs(Simd x) { return Simd(hn::Abs(x.v)); }
-HWY_INLINE Simd sqrt(Simd x) { return Simd(hn::Sqrt(x.v)); }
-HWY_INLINE Simd min(Simd a, Simd b) { return select(b < a, b, a); }
-HWY_INLINE Simd max(Simd a, Simd b) { return select(b > a, b, a); }
-HWY_INLINE Simd exp(Simd x) { return Simd(hn::Exp(SimdTag(), x.v)); }
-HWY_INLINE Simd log(Simd x) { return Simd(hn::Log(SimdTag(), x.v)); }
-HWY_INLINE Simd log1p(Simd x) { return Simd(hn::Log1p(SimdTag(), x.v)); }
-HWY_INLINE Simd expm1(Simd x) { return Simd(hn::Expm1(SimdTag(), x.v)); }
-HWY_INLINE Simd sin(Simd x) { return Simd(hn::Sin(SimdTag(), x.v)); }
-HWY_INLINE Simd cos(Simd x) { return Simd(hn::Cos(SimdTag(), x.v)); }
-HWY_INLINE Simd atan(Simd x) { return Simd(hn::Atan(SimdTag(), x.v)); }
-HWY_INLINE double abs(double x) { return std::abs(x); }
-HWY_INLINE double sqrt(double x) { return std::sqrt(x); }
-HWY_INLINE double min(double a, double b) { return b < a ? b : a; }
-HWY_INLINE double max(double a, double b) { return b > a ? b : a; }
-HWY_INLINE double exp(double x) { return std::exp(x); }
-HWY_INLINE double log(double x) { return std::log(x); }
-HWY_INLINE double log1p(double x) { return std::log1p(x); }
-HWY_INLINE double expm1(double x) { return std::expm1(x); }
-HWY_INLINE double sin(double x) { return std::sin(x); }
-HWY_INLINE double cos(double x) { return std::cos(x); }
-HWY_INLINE double atan(double x) { return std::atan(x); }
-/// -1, 0 or 1.
-template <class L>
-HWY_INLINE L sign(L x) {
-  return select(x > L(0.0), L(1.0), select(x < L(0.0), L(-1.0), L(0.0)));
-}
-/// The angle of (x, y) in (-pi, pi]; 0 at the origin.
-template <class L>
-HWY_INLINE L atan2(L y, L x) {
-  const L ax = abs(x), ay = abs(y);
-  const auto steep = ay > ax;
-  const L large = select(steep, ay, ax), small = select(steep, ax, ay);
-  const L t = atan(select(large > L(0.0), small / large, L(0.0)));
-  const L first = select(steep, L(1.57079632679489661923) - t, t);
-  const L half = select(x < L(0.0), L(3.14159265358979323846) - first, first);
-  return select(y < L(0.0), -half, half);
-}
-}  // namespace lane
 
 // ---- Numbers with derivatives -----------------------------------------------------------------------
 
@@ -360,30 +268,6 @@ HWY_INLINE T sine(const T& x) {
   return chain(x, s, c, -s);
 }
 
-/// Lane power by repeated squaring; n >= 1.
-template <class L>
-HWY_INLINE L integer_power(L x, int n) {
-  L r = x;
-  for (int bit = 30 - std::countl_zero(static_cast<unsigned>(n)); bit >= 0; --bit) {
-    r = r * r;
-    if ((n >> bit) & 1) r = r * x;
-  }
-  return r;
-}
-/// x^n for lanes, x >= 0 (0 for x = 0, also when the result underflows).
-template <class L>
-HWY_INLINE L lane_power(L x, const Power& n) {
-  switch (n.kind) {
-    case Power::Kind::integer:
-      return integer_power(x, n.integer);
-    case Power::Kind::square_root:
-      return lane::sqrt(x);
-    default: {
-      const L floor = 1e-300;
-      return select(x > floor, lane::exp(L(n.exponent) * lane::log(lane::max(x, floor))), L(0.0));
-    }
-  }
-}
 /// x^n, x >= 0, n > 0; derivatives at x <= 1e-150 (1e-75 for n < 1, where they are steepest) are 0, but for
 /// n = 1.
 template <class T>
