@@ -17,7 +17,8 @@ struct NodeRef {
 };
 
 /// A number (lengths in the scene's unit, angles in degrees under keys that end in _deg), a word or formula,
-/// a point or list of numbers, a list of points or matrix rows, formulas, one node, several nodes.
+/// a point or list of numbers, a list of points or matrix rows, formulas, one node, several nodes. Where a node
+/// is meant, a text is its name.
 using NodeValue = std::variant<double, std::string, std::vector<double>, std::vector<std::vector<double>>,
                                std::vector<std::string>, NodeRef, std::vector<NodeRef>>;
 
