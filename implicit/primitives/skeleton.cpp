@@ -37,7 +37,7 @@ HWY_INLINE T evaluate(const CapsuleGauge& b, const Inputs<T>& in) {
   const L l = select(value_of(p.z) < L(0.0), L(b.below), L(b.above));
   const T z2 = square(z);
   const T beyond = z2 - scaled(rho2, l * l);
-  const auto cap = value_of(beyond) > L(0.0);
+  const auto cap = value_of(beyond) > L(0.0) && m >= L(1e-60);  // nearer to 0 the squares underflow
   const T denominator = choose<T>(cap, scaled(z, l) + root(rho2 + beyond), T(1.0));
   const T t = choose<T>(cap, (rho2 + z2) / denominator, root(rho2));
   return scaled(t, scale) * b.inverse_radius;
