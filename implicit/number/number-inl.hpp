@@ -165,7 +165,7 @@ HWY_INLINE T operator*(const T& a, const T& b) {
 template <Number T>
 HWY_INLINE T operator/(const T& a, const T& b) {
   using L = LaneOf<T>;
-  const L i = L(1.0) / b.v, q = a.v * i;
+  const L q = a.v / b.v, i = L(1.0) / b.v;  // the value is the one that lanes have
   return chain(a, b, q, i, -(q * i), L(0.0), -(i * i), L(2.0) * (q * (i * i)));
 }
 template <Number T>
@@ -201,7 +201,7 @@ HWY_INLINE T operator*(double a, const T& b) {
 }
 template <Number T>
 HWY_INLINE T operator/(const T& a, double b) {
-  return a * (1.0 / b);
+  return chain(a, a.v / LaneOf<T>(b), LaneOf<T>(1.0 / b));
 }
 
 // ---- Functions of any number ------------------------------------------------------------------------

@@ -88,26 +88,32 @@ HWY_INLINE L norm_inverse(L m) {
   return L(1.0) / select(m >= L(std::numeric_limits<double>::min()), m, L(1.0));
 }
 
-/// The largest of K lanes and r_i^n of all, with their sum S. Two or three are put in order first, because
+/// r^n, r = u / m <= 1; 1 where both are infinite.
+template <class L>
+HWY_INLINE L norm_term(L u, L inverse, const Power& n) {
+  return ratio_power(lane::min(L(1.0), u * inverse), n);
+}
+
+/// f_i = r_i^n of K lanes u_i >= 0, and their sum S. Two or three are put in order first, because
 /// the power of the largest is 1.
 template <class L, std::size_t K>
 HWY_INLINE L norm_sum(const L (&u)[K], L m, L inverse, const Power& n, L (&f)[K]) {
   if constexpr (K == 2) {
     const auto first = u[0] >= u[1];
-    const L p = ratio_power(select(first, u[1], u[0]) * inverse, n);
+    const L p = norm_term(select(first, u[1], u[0]), inverse, n);
     f[0] = select(first, L(1.0), p);
     f[1] = select(first, p, L(1.0));
     return L(1.0) + p;
   } else if constexpr (K == 3) {
     const L small = lane::min(u[0], u[1]), large = lane::max(u[0], u[1]);
     const L least = lane::min(small, u[2]), middle = lane::max(small, lane::min(large, u[2]));
-    const L p = ratio_power(least * inverse, n), q = ratio_power(middle * inverse, n);
+    const L p = norm_term(least, inverse, n), q = norm_term(middle, inverse, n);
     for (std::size_t i = 0; i < K; ++i) f[i] = select(u[i] == m, L(1.0), select(u[i] == least, p, q));
     return L(1.0) + (p + q);
   } else {
     L sum = 0.0;
     for (std::size_t i = 0; i < K; ++i) {
-      f[i] = select(u[i] == m, L(1.0), ratio_power(u[i] * inverse, n));
+      f[i] = select(u[i] == m, L(1.0), norm_term(u[i], inverse, n));
       sum = sum + f[i];
     }
     return sum;
@@ -154,7 +160,7 @@ HWY_INLINE T p_norm_of(const Terms& terms, std::size_t k, const Power& n, const 
   for (std::size_t i = 0; i < k; ++i) {
     const T u = terms(i);
     const L a = lane::abs(value_of(u));
-    const L f = select(a == m, L(1.0), ratio_power(a * inverse, n));
+    const L f = select(a == m, L(1.0), norm_term(a, inverse, n));
     sum = sum + f;
     if constexpr (NumberTraits<T>::order > 0) derivatives.add(u, f, n, inverse);
   }
