@@ -52,10 +52,13 @@ struct NormDerivatives {
       first = select(v < L(0.0), -g, g);
       second = L(n.exponent - 1.0) * (g * i) * inverse;
     }
+    HWY_UNROLL(8)
     for (int k = 0; k < 3; ++k) d[k] = multiply_add(first, u.d[k], d[k]);
     if constexpr (NumberTraits<T>::order == 2) {
       L s[3];
+      HWY_UNROLL(8)
       for (int k = 0; k < 3; ++k) s[k] = second * u.d[k];
+      HWY_UNROLL(8)
       for (int k = 0; k < 6; ++k)
         h[k] = multiply_add(s[hessian_row[k]], u.d[hessian_column[k]], multiply_add(first, u.h[k], h[k]));
     }
@@ -69,11 +72,14 @@ struct NormDerivatives {
     norm.v = m * root;
     const auto regular = m > L(1e-60) && norm.v <= L(std::numeric_limits<double>::max());
     const L q = root / sum;
+    HWY_UNROLL(8)
     for (int k = 0; k < 3; ++k) norm.d[k] = select(regular, q * d[k], L(0.0));
     if constexpr (NumberTraits<T>::order == 2) {
       const L bend = L(1.0 - n.exponent) * inverse / root;
       L s[3];
+      HWY_UNROLL(8)
       for (int k = 0; k < 3; ++k) s[k] = bend * norm.d[k];
+      HWY_UNROLL(8)
       for (int k = 0; k < 6; ++k)
         norm.h[k] =
             select(regular, multiply_add(s[hessian_row[k]], norm.d[hessian_column[k]], q * h[k]), L(0.0));
@@ -108,10 +114,12 @@ HWY_INLINE L norm_sum(const L (&u)[K], L m, L inverse, const Power& n, L (&f)[K]
     const L small = lane::min(u[0], u[1]), large = lane::max(u[0], u[1]);
     const L least = lane::min(small, u[2]), middle = lane::max(small, lane::min(large, u[2]));
     const L p = norm_term(least, inverse, n), q = norm_term(middle, inverse, n);
+    HWY_UNROLL(8)
     for (std::size_t i = 0; i < K; ++i) f[i] = select(u[i] == m, L(1.0), select(u[i] == least, p, q));
     return L(1.0) + (p + q);
   } else {
     L sum = 0.0;
+    HWY_UNROLL(8)
     for (std::size_t i = 0; i < K; ++i) {
       f[i] = select(u[i] == m, L(1.0), norm_term(u[i], inverse, n));
       sum = sum + f[i];
@@ -126,18 +134,22 @@ HWY_INLINE T p_norm(const T (&u)[K], const Power& n, const Power& inverse_n) {
   using L = LaneOf<T>;
   if (n.exponent == 1.0) {
     T sum = absolute(u[0]);
+    HWY_UNROLL(8)
     for (std::size_t i = 1; i < K; ++i) sum = sum + absolute(u[i]);
     return sum;
   }
   L a[K], f[K];
+  HWY_UNROLL(8)
   for (std::size_t i = 0; i < K; ++i) a[i] = lane::abs(value_of(u[i]));
   L m = a[0];
+  HWY_UNROLL(8)
   for (std::size_t i = 1; i < K; ++i) m = lane::max(m, a[i]);
   const L inverse = norm_inverse(m), sum = norm_sum(a, m, inverse, n, f), root = lane_power(sum, inverse_n);
   if constexpr (NumberTraits<T>::order == 0) {
     return m * root;
   } else {
     NormDerivatives<T> terms;
+    HWY_UNROLL(8)
     for (std::size_t i = 0; i < K; ++i) terms.add(u[i], f[i], n, inverse);
     return terms.finish(m, inverse, sum, root, n);
   }
@@ -177,9 +189,11 @@ template <class T, std::size_t K>
 HWY_INLINE T length(const T (&x)[K]) {
   using L = LaneOf<T>;
   L m = lane::abs(value_of(x[0]));
+  HWY_UNROLL(8)
   for (std::size_t i = 1; i < K; ++i) m = lane::max(m, lane::abs(value_of(x[i])));
   const L scale = norm_scale(m), inverse = L(1.0) / scale;
   T sum = square(scaled(x[0], inverse));
+  HWY_UNROLL(8)
   for (std::size_t i = 1; i < K; ++i) sum = sum + square(scaled(x[i], inverse));
   return scaled(root(sum), scale);
 }
