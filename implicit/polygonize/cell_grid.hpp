@@ -3,6 +3,7 @@
 // blocks of 8^3 cells.
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernel/field/range.hpp"
@@ -28,6 +29,8 @@ class CellGrid {
   [[nodiscard]] std::uint32_t cells(int axis) const { return cells_[static_cast<std::size_t>(axis)]; }
   [[nodiscard]] std::uint32_t blocks(int axis) const { return (cells(axis) + block_cells - 1) / block_cells; }
   [[nodiscard]] double at(int axis, std::uint32_t i) const { return at_[static_cast<std::size_t>(axis)][i]; }
+  /// All grid points of an axis.
+  [[nodiscard]] std::span<const double> axis(int a) const { return at_[static_cast<std::size_t>(a)]; }
   /// The longest edge of a cell; edges of different axes differ only where a given box is no multiple of it.
   [[nodiscard]] double cell() const { return cell_; }
   /// The box of the blocks [from, to) in block numbers, cut at the grid's own box.

@@ -34,6 +34,23 @@ Vec3 corner_point(const CellGrid& grid, const BlockPlace& place, int i, int j, i
   return {at(0, i), at(1, j), at(2, k)};
 }
 
+Points corner_points(const CellGrid& grid, const BlockPlace& place) {
+  Points points;
+  for (auto* c : {&points.x, &points.y, &points.z}) c->resize(place.corners());
+  const auto row = static_cast<std::size_t>(place.cells[0] + 1);
+  const std::span<const double> x = grid.axis(0).subspan(place.first[0], row);
+  std::size_t n = 0;
+  for (int k = 0; k <= place.cells[2]; ++k)
+    for (int j = 0; j <= place.cells[1]; ++j, n += row) {
+      const Vec3 start = corner_point(grid, place, 0, j, k);
+      const auto at = static_cast<std::ptrdiff_t>(n);
+      std::copy(x.begin(), x.end(), points.x.begin() + at);
+      std::fill_n(points.y.begin() + at, row, start.y());
+      std::fill_n(points.z.begin() + at, row, start.z());
+    }
+  return points;
+}
+
 Vec3 point_on_edge(const CellGrid& grid, const BlockPlace& place, const GridEdge& e, double t) {
   Vec3 p = corner_point(grid, place, e.i, e.j, e.k);
   const double end =

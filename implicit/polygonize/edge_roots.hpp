@@ -30,6 +30,9 @@ struct Points {
 /// The grid point at a corner of the block.
 [[nodiscard]] Vec3 corner_point(const CellGrid& grid, const BlockPlace& place, int i, int j, int k);
 
+/// All corners of the block, in the order of BlockPlace::corner.
+[[nodiscard]] Points corner_points(const CellGrid& grid, const BlockPlace& place);
+
 /// The point at part t of an edge of the block.
 [[nodiscard]] Vec3 point_on_edge(const CellGrid& grid, const BlockPlace& place, const GridEdge& edge,
                                  double t);

@@ -36,11 +36,7 @@ MeshBlock sampled(const MeshDraft& draft, std::size_t b) {
     count_triangles(block, draft.cap());
     return block;
   }
-  Points corners;
-  corners.reserve(place.corners());
-  for (int k = 0; k <= place.cells[2]; ++k)
-    for (int j = 0; j <= place.cells[1]; ++j)
-      for (int i = 0; i <= place.cells[0]; ++i) corners.add(corner_point(draft.grid, place, i, j, k));
+  const Points corners = corner_points(draft.grid, place);
   std::vector<double> values(corners.size());
   live.model->evaluate(Order::value, corners.arrays(), values);
   block.evaluated = corners.size();
