@@ -71,13 +71,16 @@ struct Best {
   Vec3 direction;
 };
 
-/// Walks downhill on the sphere in steps that shrink from the lattice's spacing to 1e-7.
+/// Walks downhill on the sphere in steps that shrink from the lattice's spacing to 1e-7. Along the bottom of
+/// a crooked valley that could take millions of steps for the last digits: there it stops early.
 Best refined(const Ratio& ratio, double sign, Best best) {
-  for (double step = 0.07; step > 1e-7;) {
+  constexpr int most_steps_downhill = 200;
+  double step = 0.07;
+  for (int k = 0; k < most_steps_downhill && step > 1e-7; ++k) {
     const Vec3 u = best.direction.unitOrthogonal(), v = best.direction.cross(u);
     std::vector<Vec3> around;
-    for (int k = 0; k < 8; ++k) {
-      const double angle = 0.25 * std::numbers::pi * k;
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const double angle = 0.25 * std::numbers::pi * eighth;
       around.push_back((best.direction + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized());
     }
     const std::vector<double> found = ratio(around);

@@ -135,6 +135,13 @@ std::string point_text(const Vec3& p) {
   return '[' + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ']';
 }
 
+/// A direction for reading: three digits, and no traces of zeros.
+std::string direction_text(const Vec3& u) {
+  Vec3 rounded;
+  for (int i = 0; i < 3; ++i) rounded[i] = std::round(1e3 * u[i]) / 1e3 + 0.0;
+  return point_text(rounded);
+}
+
 /// The key of a contour, below the node.
 constexpr std::string_view contour_key = "w1/contour";
 
@@ -168,7 +175,8 @@ bool check_contour(NodeInputs& in, const Node& distance, const Node& contour) {
 double check_width(NodeInputs& in, const Node& distance, const Node& contour, double floor) {
   const detail::RatioScan scan = detail::scan_ratio(distance, contour);
   const double least = 2.0 * scan.min - 1.0;
-  const std::string is = "gives w1 = " + number_text(least, 4) + " along " + point_text(scan.min_direction);
+  const std::string is =
+      "gives w1 = " + number_text(least, 4) + " along " + direction_text(scan.min_direction);
   if (!(least > 0.0)) {
     const std::string inside =
         is + ", where the contour f_c = 1 is not outside the object d = 1/2; w1 must be > 0";
@@ -176,9 +184,9 @@ double check_width(NodeInputs& in, const Node& distance, const Node& contour, do
       in.problem(contour_key, scene_error::contour_inside_object, inside);
     else
       in.warning(contour_key, std::string(scene_error::contour_inside_object) + ": " + inside +
-                                  "; w_floor = " + number_text(floor) + " acts there");
+                                  "; w_floor = " + number_text(floor, 4) + " acts there");
   } else if (least < 2.0 * floor) {
-    in.warning(contour_key, is + ", below 2 w_floor = " + number_text(2.0 * floor) +
+    in.warning(contour_key, is + ", below 2 w_floor = " + number_text(2.0 * floor, 4) +
                                 ": the object reaches a little beyond the contour there");
   }
   if (least <= 0.0) return floor;
