@@ -1,5 +1,6 @@
 #pragma once
 // A node of a scene after checking: what it computes, and what its users may rely on.
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -21,6 +22,11 @@ struct Node {
   Vec3 origin = Vec3::Zero();  ///< of ray-linearity, in the node's own coordinates
   bool positive = false;       ///< value > 0 off the origin: the level set is bounded
   bool profile = false;        ///< a plane gauge g(u, v): only for sections
+  bool exact_distance = false;  ///< level function: the distance to the surface, positive inside, everywhere
+  bool any_value = false;       ///< level half, but values may leave [0, 1]: no argument of powers
+  double weight = 0.0;          ///< of perturbation functions w max(q, 0)^k: w; 0: it is none
+  /// Of quadrics, level function: A11 A22 A33 A12 A13 A23 A14 A24 A34 A44 in the node's own coordinates.
+  std::shared_ptr<const std::array<double, 10>> quadric{};
   /// Adds the node's steps, seen from the coordinates that `frame` leads to.
   std::function<StepIndex(TapeBuilder&, const Frame&)> emit;
   /// Encloses every point, in the node's own coordinates, whose value lies on the solid's side of `value` (<=
@@ -98,7 +104,17 @@ class NodeInputs {
 /// A parameter of this name takes a profile; all other nodes are nodes in space.
 inline constexpr std::string_view profile_key = "profile";
 
-enum class NodeFamily { profile, distance, distance_operation, field, operation, conversion, placement };
+enum class NodeFamily {
+  profile,
+  distance,
+  distance_operation,
+  field,
+  solid,
+  offset,
+  operation,
+  conversion,
+  placement
+};
 [[nodiscard]] std::string_view name(NodeFamily family);
 
 /// A row of the table of node kinds: the scene reader, the schema, `list nodes`, the documentation and the
@@ -123,6 +139,8 @@ struct NodeKind {
 [[nodiscard]] std::span<const NodeKind> distance_kinds();            // implicit/primitives
 [[nodiscard]] std::span<const NodeKind> distance_operation_kinds();  // implicit/operators
 [[nodiscard]] std::span<const NodeKind> operation_kinds();           // implicit/operators
+[[nodiscard]] std::span<const NodeKind> solid_kinds();               // implicit/primitives: level function
+[[nodiscard]] std::span<const NodeKind> offset_kinds();              // implicit/offset
 [[nodiscard]] std::span<const NodeKind> field_kinds();       // implicit/scene: potentials of distances
 [[nodiscard]] std::span<const NodeKind> conversion_kinds();  // implicit/scene: from level to level
 [[nodiscard]] std::span<const NodeKind> placement_kinds();   // implicit/scene

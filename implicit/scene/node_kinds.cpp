@@ -12,7 +12,8 @@ bool same_origin(const Node& a, const Node& b) {
 }
 
 std::string_view name(NodeFamily family) {
-  constexpr std::array<std::string_view, 7> names = {"profile",   "distance",   "distance operation", "field",
+  constexpr std::array<std::string_view, 9> names = {"profile",   "distance",   "distance operation",
+                                                     "field",     "solid",      "offset",
                                                      "operation", "conversion", "placement"};
   return names[static_cast<std::size_t>(family)];
 }
@@ -21,8 +22,8 @@ std::span<const NodeKind* const> node_kinds() {
   static const std::vector<const NodeKind*> kinds = [] {
     std::vector<const NodeKind*> all;
     for (const std::span<const NodeKind> family :
-         {profile_kinds(), distance_kinds(), distance_operation_kinds(), field_kinds(), operation_kinds(),
-          conversion_kinds(), placement_kinds()})
+         {profile_kinds(), distance_kinds(), distance_operation_kinds(), field_kinds(), solid_kinds(),
+          offset_kinds(), operation_kinds(), conversion_kinds(), placement_kinds()})
       for (const NodeKind& kind : family) all.push_back(&kind);
     return all;
   }();

@@ -3,12 +3,18 @@
 #include <array>
 #include <cmath>
 
+#include "implicit/primitives/quadric.hpp"
 #include "implicit/scene/node.hpp"
 
 namespace blendwright {
 namespace {
 
 using Type = NodeParam::Type;
+
+/// Whether the map turns or mirrors and no more, but for what rounding does to a turn.
+bool keeps_lengths(const Eigen::Matrix3d& m) {
+  return (m * m.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-14;
+}
 
 /// The node `of` in the coordinates that `frame` turns into its own. Values do not change; a ray-linear
 /// function stays one, about the point that its origin comes from.
@@ -18,6 +24,12 @@ Node placed(const std::shared_ptr<const Node>& of, const Frame& frame) {
   node.distance = of->distance;
   node.ray_linear = of->ray_linear;
   node.positive = of->positive;
+  node.any_value = of->any_value;
+  node.weight = of->weight;
+  node.exact_distance = of->exact_distance && keeps_lengths(frame.matrix);
+  if (of->quadric)
+    node.quadric =
+        std::make_shared<const detail::QuadricCoefficients>(detail::seen_through(*of->quadric, frame));
   node.origin = frame.matrix.inverse().transpose() * (of->origin - frame.offset);
   node.emit = [of, frame](TapeBuilder& tape, const Frame& outer) {
     return of->emit(tape, frame.after(outer));

@@ -192,7 +192,7 @@ std::vector<std::string> SceneBuilder::mark_members() {
     seen[i] = true;
     const NodeFamily family = kinds_[i]->family;
     if (family == NodeFamily::distance || family == NodeFamily::distance_operation ||
-        family == NodeFamily::field) {
+        family == NodeFamily::field || family == NodeFamily::solid || family == NodeFamily::offset) {
       made_.set_member(made_index_[i], static_cast<std::uint32_t>(members.size()));
       members.push_back(spec_.nodes[i].name);
       continue;

@@ -1,9 +1,9 @@
-// Nodes that change the level convention.
+// From level one to level zero, as the papers of soft objects do it.
 #include <array>
 #include <cmath>
 
 #include "implicit/scene/level_conversion.hpp"
-#include "implicit/scene/node.hpp"
+#include "implicit/scene/scene_tables.hpp"
 
 namespace blendwright {
 namespace {
@@ -55,6 +55,6 @@ constexpr std::array kinds = {
 
 }  // namespace
 
-std::span<const NodeKind> conversion_kinds() { return kinds; }
+std::span<const NodeKind> detail::zero_level_kinds() { return kinds; }
 
 }  // namespace blendwright
