@@ -19,14 +19,19 @@ namespace fs = std::filesystem;
 /// Samples that are held at a time, besides the points.
 constexpr std::size_t block = 1 << 16;
 
-std::vector<Vec3> points_of(const EvalCommand& command) {
+std::vector<Vec3> points_of(const std::string& file) {
+  return file == "-" ? read_csv_points(std::cin) : read_points(file);
+}
+
+/// What can be said before anything is read.
+void require_sensible(const EvalCommand& command) {
   if (command.points == "-" && command.scene == "-")
     throw InputError("--points", "is standard input, as the scene is; must be a file");
-  try {
-    return command.points == "-" ? read_csv_points(std::cin) : read_points(command.points);
-  } catch (const InputError& e) {
-    throw e.under(shown_name(command.points) + ", ");
-  }
+  if (command.output.empty()) return;
+  const std::string extension = lower_case_extension(command.output);
+  if (extension != ".csv" && extension != ".vtp")
+    throw InputError("--output", "is " + in_quotes(command.output) + ", must end in \".csv\" or \".vtp\"");
+  if (!command.force) refuse_existing({command.output});
 }
 
 /// Calls `use` with the samples of all points, a block at a time.
@@ -90,18 +95,18 @@ void write_output(const EvalCommand& command, const SceneFile& scene, std::span<
 }  // namespace
 
 int eval(const EvalCommand& command, const Console& console) {
-  return guarded(console, shown_name(command.scene), [&] {
+  std::string subject = shown_name(command.scene);  // whose problems are told
+  return guarded(console, subject, [&] {
     Run run(console, command.quiet);
     std::optional<ThreadLimit> limit;
     if (command.threads) limit.emplace(*command.threads);
-    const std::string extension = lower_case_extension(command.output);
-    if (!command.output.empty() && extension != ".csv" && extension != ".vtp")
-      throw InputError("--output", "is " + in_quotes(command.output) + ", must end in \".csv\" or \".vtp\"");
-    if (!command.output.empty() && !command.force) refuse_existing({command.output});
+    require_sensible(command);
     const SceneFile scene = build_scene_file(command.scene, command.solid);
     if (!command.quiet)
       for (const Problem& w : scene.scene.warnings) console.warn(w.where + ": " + w.message);
-    const std::vector<Vec3> points = points_of(command);
+    subject = shown_name(command.points);
+    const std::vector<Vec3> points = points_of(command.points);
+    subject = shown_name(command.scene);
     if (!command.output.empty())
       write_output(command, scene, points, run.progress());
     else if (command.json)

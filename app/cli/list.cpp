@@ -141,6 +141,21 @@ std::vector<std::pair<std::string, std::string>> further(const Row& r) {
   return all;
 }
 
+/// Rows of one family after another, under its name where there is more than one.
+void print(const Rows& rows, std::ostream& out) {
+  for (std::size_t i = 0; i < rows.size();) {
+    const std::string& family = rows[i].family;
+    TextRows table;
+    for (; i < rows.size() && rows[i].family == family; ++i) {
+      table.push_back({rows[i].name, rows[i].description});
+      for (const auto& [what, text] : further(rows[i]))
+        if (what != "family") table.push_back({"", what + ": " + text});
+    }
+    if (!family.empty()) out << family << '\n';
+    out << aligned(table);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> listed_families() {
@@ -162,16 +177,7 @@ int list(const ListCommand& command, const Console& console) {
       console.out() << json_text(std::move(items));
       return exit_done;
     }
-    TextRows table;
-    std::string family;
-    for (const Row& r : rows) {
-      if (!r.family.empty() && r.family != family) table.push_back({r.family + ":"});
-      family = r.family;
-      table.push_back({r.name, r.description});
-      for (const auto& [what, text] : further(r))
-        if (what != "family") table.push_back({"", what + ": " + text});
-    }
-    console.out() << aligned(table);
+    print(rows, console.out());
     return exit_done;
   });
 }

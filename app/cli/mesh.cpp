@@ -52,6 +52,11 @@ std::string mesh_table(const SceneFile& scene, const MeshResult& result) {
   return aligned(rows);
 }
 
+/// A node in place has no name that people know.
+std::string solid_name(const SceneFile& scene) {
+  return scene.spec.solid.front() == '/' ? "" : "the solid \"" + scene.spec.solid + "\", ";
+}
+
 std::string written(const MeshResult& result) {
   if (result.files.empty()) return "nothing written";
   return written_files(result.files, [](const WrittenFile& f) { return size_text(f.bytes); });
@@ -78,7 +83,7 @@ int mesh(const MeshCommand& command, const Console& console) {
     if (command.json) {
       console.out() << mesh_report_json(scene, result, command.times);
     } else if (!command.quiet) {
-      console.out() << shown_name(command.scene) << ": the solid \"" << scene.spec.solid << "\", "
+      console.out() << shown_name(command.scene) << ": " << solid_name(scene)
                     << counted(scene.scene.nodes, "node") << '\n'
                     << mesh_table(scene, result) << with_seconds(written(result), run.seconds());
     }

@@ -49,6 +49,10 @@ std::string limits(const KeyInfo& key) {
 
 }  // namespace
 
+bool Reading::told(const std::string& where) const {
+  return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& p) { return p.where == where; });
+}
+
 bool Reading::faulty(const std::string& where) const {
   return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& p) {
     return p.where == where || p.where.rfind(where + "/", 0) == 0;

@@ -26,6 +26,8 @@ class Reading {
   /// Adds what a later check found, but nothing at, above or inside a place that has a problem already: one
   /// mistake is told once.
   void add(const InputError& later);
+  /// True when exactly `where` already has a problem.
+  [[nodiscard]] bool told(const std::string& where) const;
   /// True when `where` or something inside it already has a problem.
   [[nodiscard]] bool faulty(const std::string& where) const;
   [[nodiscard]] bool empty() const { return problems_.empty(); }

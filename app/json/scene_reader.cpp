@@ -222,7 +222,8 @@ ReadText read_text(std::string_view text, const std::string& solid) {
 
 /// Adds what build_scene() says of a scene that has problems already: all are told at once.
 void add_scene_problems(ReadText& read) {
-  if (!read.root.members()) return;
+  // Without nodes every name would be unknown.
+  if (read.spec.nodes.empty() || read.reading.told("/nodes")) return;
   try {
     static_cast<void>(build_scene(read.spec));
   } catch (const InputError& e) {

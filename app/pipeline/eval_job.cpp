@@ -56,7 +56,7 @@ std::string csv_header() { return "x,y,z,value,inside,gx,gy,gz,mean_curvature,ga
 
 std::string csv_lines(std::span<const FieldSample> samples, const std::vector<std::string>& members) {
   std::string text;
-  const auto add = [&](double x) { text.append(number_text(x)).append(1, ','); };
+  const auto add = [&](double x) { text.append(number_text(x + 0.0)).append(1, ','); };  // no -0
   for (const FieldSample& s : samples) {
     for (int k = 0; k < 3; ++k) add(s.point[k]);
     add(s.value);
