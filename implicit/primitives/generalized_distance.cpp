@@ -13,14 +13,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace blendwright::detail::HWY_NAMESPACE {
 
-/// |y_i|, y_i = X.n_i.
+/// y_i = X.n_i; norms take magnitudes.
 template <class T>
 struct FacetTerms {
   const std::vector<Vec3>& normals;
   const Point<T>& p;
   HWY_INLINE T operator()(std::size_t i) const {
     const Vec3& n = normals[i];
-    return absolute(p.x * n[0] + p.y * n[1] + p.z * n[2]);
+    return p.x * n[0] + p.y * n[1] + p.z * n[2];
   }
 };
 

@@ -15,8 +15,7 @@ namespace blendwright::detail::HWY_NAMESPACE {
 template <class T>
 HWY_INLINE T evaluate(const LpMetric& b, const Inputs<T>& in) {
   const Point<T> p = in.local();
-  const T u[3] = {absolute(p.x * b.inverse_axes[0]), absolute(p.y * b.inverse_axes[1]),
-                  absolute(p.z * b.inverse_axes[2])};
+  const T u[3] = {p.x * b.inverse_axes[0], p.y * b.inverse_axes[1], p.z * b.inverse_axes[2]};
   return p_norm(u, b.n, b.inverse_n);
 }
 

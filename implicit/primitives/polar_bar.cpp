@@ -16,7 +16,7 @@ namespace blendwright::detail::HWY_NAMESPACE {
 template <class T>
 HWY_INLINE T evaluate(const PolarBar& b, const Inputs<T>& in) {
   const Point<T> p = in.local();
-  const T u[2] = {gauge(b.profile, p.x, p.y), absolute(p.z * b.inverse_c)};
+  const T u[2] = {gauge(b.profile, p.x, p.y), p.z * b.inverse_c};
   return p_norm(u, b.n, b.inverse_n);
 }
 

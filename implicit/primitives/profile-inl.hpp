@@ -98,7 +98,7 @@ HWY_INLINE T gauge(const Profile& p, const T& u, const T& v) {
   using L = LaneOf<T>;
   if (p.kind == Profile::Kind::lp) {
     if (p.n.exponent == 2.0) return hypotenuse(u * (1.0 / p.a), v * (1.0 / p.b));
-    const T w[2] = {absolute(u * (1.0 / p.a)), absolute(v * (1.0 / p.b))};
+    const T w[2] = {u * (1.0 / p.a), v * (1.0 / p.b)};
     return p_norm(w, p.n, p.inverse_n);
   }
   const Polar<L> at = polar(value_of(u), value_of(v));

@@ -15,16 +15,16 @@ namespace blendwright::detail::HWY_NAMESPACE {
 template <class T>
 HWY_INLINE T evaluate(const Superquadric& b, const Inputs<T>& in) {
   const Point<T> p = in.local();
-  const T u[2] = {absolute(p.x * b.inverse_axes[0]), absolute(p.y * b.inverse_axes[1])};
-  const T w[2] = {p_norm(u, b.n1, b.inverse_n1), absolute(p.z * b.inverse_axes[2])};
+  const T u[2] = {p.x * b.inverse_axes[0], p.y * b.inverse_axes[1]};
+  const T w[2] = {p_norm(u, b.n1, b.inverse_n1), p.z * b.inverse_axes[2]};
   return p_norm(w, b.n2, b.inverse_n2);
 }
 
-/// |x| times the factor of its side.
+/// x times the factor of its side; norms take its magnitude.
 template <class T>
 HWY_INLINE T one_sided(const T& x, double plus, double minus) {
   using L = LaneOf<T>;
-  return scaled(absolute(x), select(value_of(x) < L(0.0), L(minus), L(plus)));
+  return scaled(x, select(value_of(x) < L(0.0), L(minus), L(plus)));
 }
 
 template <class T>
