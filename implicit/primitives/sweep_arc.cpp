@@ -102,21 +102,20 @@ static Range sweep_arc_range(const void* body, const Box& local, std::span<const
 }
 
 Box sweep_arc_region(const SweepArc& b, double value) {
-  const double tube = b.section.reach(value) * (1.0 + 1e-12), z = tube;
-  // The arc's own box: its ends and the quarter points it passes.
-  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()),
-          Vec3::Constant(-std::numeric_limits<double>::infinity())};
-  const auto add = [&](double x, double y) { box = hull(box, {Vec3(x, y, 0.0), Vec3(x, y, 0.0)}); };
+  const double tube = b.section.reach(value, {0.0, 1.0});
+  const auto place = [&](double t) { return Vec3(b.radius * Vec3(std::cos(t), std::sin(t), 0.0)); };
+  // The arc's own box: its ends and the quarter points that it passes.
   const double t0 = b.middle - b.half, t1 = b.middle + b.half, quarter = 0.5 * std::numbers::pi;
-  add(b.radius * std::cos(t0), b.radius * std::sin(t0));
-  add(b.radius * std::cos(t1), b.radius * std::sin(t1));
+  Box box = hull({place(t0), place(t0)}, {place(t1), place(t1)});
   for (double i = std::ceil(t0 / quarter); i * quarter <= t1; i += 1.0)
-    add(b.radius * std::round(std::cos(i * quarter)), b.radius * std::round(std::sin(i * quarter)));
-  box = {box.lo - Vec3(tube, tube, z), box.hi + Vec3(tube, tube, z)};
+    box = hull(box, {place(i * quarter), place(i * quarter)});
+  const double reach = tube + 1e-12 * b.radius;
+  box = {box.lo.array() - reach, box.hi.array() + reach};
   if (b.whole) return box;
-  for (const double t : {t0, t1})
-    box = hull(box, end_box(b.section, b.radius * Vec3(std::cos(t), std::sin(t), 0.0),
-                            Vec3(-std::sin(t), std::cos(t), 0.0), value));
+  for (const double k : {0.0, 1.0}) {
+    const double t = k == 0.0 ? t0 : t1;
+    box = hull(box, end_box(b.section, k, place(t), Vec3(-std::sin(t), std::cos(t), 0.0), value));
+  }
   return box;
 }
 

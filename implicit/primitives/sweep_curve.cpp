@@ -148,14 +148,22 @@ Op sweep_curve_op() {
 
 }  // namespace
 
+// A point of the normal plane of W at the distance r differs by r sqrt(1 - W_i^2) at most in coordinate i.
 Box sweep_curve_region(const SweepCurve& b, double value) {
   const Path& path = *b.path;
-  const double tube = b.section.reach(value) * (1.0 + 1e-12);
-  const Box box{path.bounds().lo.array() - tube, path.bounds().hi.array() + tube};
+  const double range = path.t1() - path.t0();
+  Box box = path.pieces().front().box();
+  for (const PathPiece& p : path.pieces()) {
+    const double k = (p.t_middle - path.t0()) / range, half = p.half / range;
+    const double reach = b.section.reach(value, {k - half, k + half});
+    const Vec3 along = p.least_tangent(), across = (1.0 - along.array().square()).sqrt();
+    const Box piece = p.box();
+    box = hull(box, {piece.lo - reach * across, piece.hi + reach * across});
+  }
   if (path.closed()) return box;
   const PathJet first = path.pieces().front().jet(-1.0), last = path.pieces().back().jet(1.0);
-  return hull(box, hull(end_box(b.section, first[0], first[1].normalized(), value),
-                        end_box(b.section, last[0], last[1].normalized(), value)));
+  return hull(box, hull(end_box(b.section, 0.0, first[0], first[1].normalized(), value),
+                        end_box(b.section, 1.0, last[0], last[1].normalized(), value)));
 }
 
 }  // namespace detail

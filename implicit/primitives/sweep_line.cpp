@@ -59,8 +59,8 @@ static Range sweep_line_range(const void* body, const Box& local, std::span<cons
 }
 
 Box sweep_line_region(const SweepLine& b, double value) {
-  return hull(end_box(b.section, b.start, b.W, value),
-              end_box(b.section, b.start + b.length * b.W, b.W, value));
+  return hull(end_box(b.section, 0.0, b.start, b.W, value),
+              end_box(b.section, 1.0, b.start + b.length * b.W, b.W, value));
 }
 
 static Op sweep_line_op() {

@@ -85,10 +85,23 @@ PathFrame PathPiece::frame_jet(double x) const {
   return {jets(a.U), jets(a.V), derivative(a.W, 0)};
 }
 
+Box PathPiece::box() const {
+  Vec3 reach = Vec3::Zero();
+  for (std::size_t k = 1; k < 8; ++k) reach += c[k].cwiseAbs();
+  reach *= 1.0 + 1e-12;
+  return {c[0] - reach, c[0] + reach};
+}
+
+Vec3 PathPiece::least_tangent() const {
+  Vec3 least = c[1].cwiseAbs();
+  for (std::size_t k = 2; k < 8; ++k) least -= static_cast<double>(k) * c[k].cwiseAbs();
+  return least.cwiseMax(0.0) * ((1.0 - 1e-12) / most[1]);
+}
+
 Path::Path(const std::vector<std::string>& formulas, double t0, double t1, std::optional<Vec3> u)
     : t0_(t0), t1_(t1), pieces_(path_pieces(formulas, t0, t1)) {
-  bounds_ = piece_box(pieces_.front());
-  for (const PathPiece& p : pieces_) bounds_ = hull(bounds_, piece_box(p));
+  bounds_ = pieces_.front().box();
+  for (const PathPiece& p : pieces_) bounds_ = hull(bounds_, p.box());
   add_balls(0, pieces_.size());
   const PathJet first = pieces_.front().jet(-1.0), last = pieces_.back().jet(1.0);
   const Vec3 d0 = first[1] / pieces_.front().half, d1 = last[1] / pieces_.back().half;

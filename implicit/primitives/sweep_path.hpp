@@ -40,6 +40,8 @@ struct PathPiece {
   [[nodiscard]] PathJet jet(double x) const;
   [[nodiscard]] PathFrame frame(double x) const;  ///< U[0], V[0], W
   [[nodiscard]] PathFrame frame_jet(double x) const;
+  [[nodiscard]] Box box() const;             ///< encloses the piece
+  [[nodiscard]] Vec3 least_tangent() const;  ///< lower bounds of |W_i|, in [0, 1]
 };
 
 /// A nearest point of the path.

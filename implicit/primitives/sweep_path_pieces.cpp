@@ -213,11 +213,4 @@ void add_frame(PathPiece& p, const Vec3& U) {
   p.theta[0] += std::atan2(U.dot(f.V[0]), U.dot(f.U[0]));
 }
 
-Box piece_box(const PathPiece& p) {
-  Vec3 reach = Vec3::Zero();
-  for (std::size_t k = 1; k < 8; ++k) reach += p.c[k].cwiseAbs();
-  reach *= 1.0 + 1e-12;
-  return {p.c[0] - reach, p.c[0] + reach};
-}
-
 }  // namespace blendwright::detail

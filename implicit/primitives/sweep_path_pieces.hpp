@@ -12,7 +12,5 @@ inline constexpr std::size_t most_pieces = 100000;
                                                  double t1);
 /// Sets e and theta so that U at x = -1 is this direction.
 void add_frame(PathPiece& piece, const Vec3& U);
-/// Encloses the piece.
-[[nodiscard]] Box piece_box(const PathPiece& piece);
 
 }  // namespace blendwright::detail

@@ -7,8 +7,9 @@
 
 namespace blendwright::detail {
 
-double Section::reach(double value) const {
-  return profile.radius().hi * std::max(s0, s0 + ds) * std::max(value, 0.0);
+double Section::reach(double value, Range k) const {
+  const double s = s0 + std::max(ds * k.lo, ds * k.hi);
+  return profile.radius().hi * s * std::max(value, 0.0) * (1.0 + 1e-12);
 }
 
 Range section_range(const Section& b, const PlanePart& part, Range k, Range alpha) {
@@ -22,8 +23,8 @@ Range section_range(const Section& b, const PlanePart& part, Range k, Range alph
       .widened(range_slack);
 }
 
-Box end_box(const Section& b, const Vec3& end, const Vec3& tangent, double value) {
-  const double radius = b.reach(value), length = std::max(value, 0.0) / b.inverse_cap;
+Box end_box(const Section& b, double k, const Vec3& end, const Vec3& tangent, double value) {
+  const double radius = b.reach(value, {k, k}), length = std::max(value, 0.0) / b.inverse_cap;
   const Vec3 across = (1.0 - tangent.array().square()).max(0.0).sqrt();
   const Vec3 reach = (radius * across + length * tangent.cwiseAbs()) * (1.0 + 1e-12);
   return {end - reach, end + reach};

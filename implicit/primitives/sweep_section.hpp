@@ -26,15 +26,16 @@ struct Section {
   [[nodiscard]] bool varies() const { return ds != 0.0 || twist != 0.0; }
   /// Whether the section is the same at k = 0 and 1.
   [[nodiscard]] bool closes() const { return ds == 0.0 && profile.same_after_turn(twist); }
-  /// How far |(u0, v0)| reaches for d <= value.
-  [[nodiscard]] double reach(double value) const;
+  /// How far |(u0, v0)| reaches for d <= value over this part of the trajectory.
+  [[nodiscard]] double reach(double value, Range k) const;
 };
 
 /// Encloses d for (u0, v0) in the part, these k (increasing beyond [0, 1] only if the section closes) and
 /// |alpha|; alpha {0, 0}: (2).
 [[nodiscard]] Range section_range(const Section& section, const PlanePart& part, Range k, Range alpha);
 
-/// Encloses the part of d <= value that belongs to an end with this tangent (unit).
-[[nodiscard]] Box end_box(const Section& section, const Vec3& end, const Vec3& tangent, double value);
+/// Encloses the part of d <= value that belongs to the end k = 0 or 1 with this tangent (unit).
+[[nodiscard]] Box end_box(const Section& section, double k, const Vec3& end, const Vec3& tangent,
+                          double value);
 
 }  // namespace blendwright::detail

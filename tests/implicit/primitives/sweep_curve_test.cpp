@@ -159,6 +159,10 @@ std::vector<PrimitiveSample> samples() {
   return {{"open", sweep_scene(round_profile(0.8), "sweep_curve", curve(wave, -2.5, 2.5)), tall},
           {"open, varied", sweep_scene(star_profile(5, 1.0), "sweep_curve", curve(wave, -2.5, 2.5, varied)),
            tall},
+          {"steep",
+           sweep_scene(round_profile(0.8), "sweep_curve",
+                       curve({"t", "0.1*t^2", "0"}, -0.5, 0.5, {{"scale", Numbers{4, 0.3}}})),
+           {Vec3(-1, -4, -4), Vec3(1, 4, 4)}},
           {"closed, round", sweep_scene(round_profile(0.5), "sweep_curve", curve(loop, 0, 2.0 * pi)), flat},
           {"closed, star", sweep_scene(star_profile(4, 0.6), "sweep_curve", curve(loop, 0, 2.0 * pi)), flat},
           {"closed, torn",
@@ -214,6 +218,7 @@ TEST(SweepCurve, TellsWhereItIs) {
             seen = hull(seen, {p, p});
           },
           5000);
+      EXPECT_GT(least_outside(made, value, 20000), value);
       EXPECT_TRUE((seen.size().array() > 0.5 * box.size().array()).all()) << seen.size().transpose();
     }
   }

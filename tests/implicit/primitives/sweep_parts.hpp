@@ -1,9 +1,11 @@
 #pragma once
 // Sweeps for tests.
+#include <algorithm>
 #include <numbers>
 
 #include "tests/implicit/primitives/made_primitive.hpp"
 #include "tests/implicit/support/scene_parts.hpp"
+#include "tests/support/for_all.hpp"
 
 namespace blendwright::test {
 
@@ -32,6 +34,22 @@ inline MadePrimitive sweep(const NodeSpec& profile, const std::string& kind, Val
 /// The first problem of a node, "where: message"; "" when it was made.
 inline std::string problem_of(const MadePrimitive& made) {
   return made.problems.empty() ? "" : made.problems[0].where + ": " + made.problems[0].message;
+}
+
+/// The least distance over random points of the border of the node's region of `value`, a little enlarged.
+inline double least_outside(const MadePrimitive& made, double value, int points) {
+  Box box = *made.node.region(value);
+  const Vec3 margin = 1e-3 * box.size();
+  box = {box.lo - margin, box.hi + margin};
+  Rng rng(9);
+  std::vector<Vec3> border;
+  for (int i = 0; i < points; ++i) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) p[k] = uniform(rng, box.lo[k], box.hi[k]);
+    p[i % 3] = i % 2 == 0 ? box.lo[i % 3] : box.hi[i % 3];
+    border.push_back(p);
+  }
+  return std::ranges::min(values_at(*made.tape, border));
 }
 
 }  // namespace blendwright::test

@@ -195,6 +195,25 @@ TEST(Path, NearestPointsAreNearestOfAll) {
   }
 }
 
+// Where pieces meet the distance is flat: rounding alone would leave feet 1e-8 off.
+TEST(Path, NearestPointsAreExactWherePiecesMeet) {
+  for (const Case& c : cases()) {
+    const Path path = path_of(c);
+    for (const PathPiece& p : path.pieces())
+      for (const double off : {0.0, 1e-12, -1e-10, 1e-9, -1e-8, 3e-8}) {
+        const double x = (off < 0.0 ? -1.0 : 1.0) + off;
+        const auto j = p.jet(x);
+        const PathFrame f = p.frame(x);
+        const Vec3 X = j[0] + 0.05 * f.U[0] + 0.02 * f.V[0];
+        const Foot foot = path.nearest(X);
+        if (foot.end != 0) continue;
+        const auto at = path.pieces()[foot.piece].jet(foot.x);
+        // Rounding of points with coordinates below 10, once for X and once for the foot.
+        EXPECT_NEAR((X - at[0]).dot(at[1].normalized()), 0.0, 2.0 * 10.0 * 2.2e-16);
+      }
+  }
+}
+
 TEST(Path, NearestPointsOfACentreAreOnTheCircle) {
   const Path ring({"2*cos(t)", "2*sin(t)", "0"}, 0.0, 2.0 * pi, std::nullopt);
   for (const Vec3& X : {Vec3(0, 0, 0), Vec3(1e-9, 0, 0), Vec3(1e-3, 1e-3, 0), Vec3(0, 0, 5)}) {
@@ -232,6 +251,21 @@ TEST(Path, StretchesBoundHowFarFeetMove) {
   }
   EXPECT_GT(answered, all / 3);
   EXPECT_LT(answered, all);
+}
+
+// The parabola y = x^2 has its centre of curvature (0, 1/2): points beyond have two feet.
+TEST(Path, StretchesReachToTheCentreOfCurvatureAtMost) {
+  const Path parabola({"t", "t^2", "0"}, -2.0, 2.0, std::nullopt);
+  const Vec3 X(0.0, 0.2, 0.0);
+  const Foot foot = parabola.nearest(X);
+  EXPECT_TRUE(parabola.stretch(X, 0.2, foot, false).has_value());
+  EXPECT_FALSE(parabola.stretch(X, 0.31, foot, false).has_value());
+}
+
+TEST(Path, NeedsFewPieces) {
+  // Degree 7 reaches 1e-14 with some 10 pieces per radian.
+  EXPECT_LE(Path(helix, 0.0, 40.0, std::nullopt).pieces().size(), 512u);
+  EXPECT_LE(Path({"2*t", "t", "1"}, 0.0, 40.0, std::nullopt).pieces().size(), 8u);
 }
 
 Problem refusal(const Texts& formulas, double t0, double t1, std::optional<Vec3> u = std::nullopt) {

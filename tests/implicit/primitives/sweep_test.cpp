@@ -143,6 +143,7 @@ TEST(Sweeps, TellWhereTheyAre) {
           },
           4000);
       EXPECT_GT(inside, 50);
+      EXPECT_GT(least_outside(made, value, 60000), value);
       // Not needlessly large: the solid fills at least half of it in every direction.
       EXPECT_TRUE(((seen.size().array()) > 0.5 * box.size().array()).all()) << seen.size().transpose();
     }
