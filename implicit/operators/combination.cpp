@@ -99,7 +99,7 @@ Joining joining(OperatorId id, Level level) {
 
 Combination combination(OperatorId id, const OperatorValues& v) {
   const auto scale = [&](ScaleSide side) { return of_two(ScaleBlend(v.r1, v.r2, v.p, side)); };
-  const auto hoffmann = [&](ZeroRole role) { return of_two(HoffmannBlend{v.r1, v.r2, v.p, role}); };
+  const auto hoffmann = [&](ZeroRole role) { return of_two(HoffmannBlend(v.r1, v.r2, v.p, role)); };
   switch (id) {
     // The half level is the upper set: its union is the intersection of level one.
     case OperatorId::ricci_union_one:

@@ -79,7 +79,7 @@ Node dilated(const Operand& of, const Operand& by, double n) {
   };
   node.region = [of, by, n](double value) -> std::optional<Box> {
     const std::optional<Box> a = of->region(value), b = by->region(value);
-    if (!a || !b) return std::nullopt;
+    if (!a || !b || !a->finite() || !b->finite()) return std::nullopt;
     return radii_joined(*a, *b, of->origin, n);
   };
   return node;

@@ -9,30 +9,16 @@
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
 
 #include "implicit/eval/kernel-inl.hpp"
+#include "implicit/operators/arc-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace blendwright::detail::HWY_NAMESPACE {
 
-/// B_H and its first partials; the second ones are 2 r2^2, 2 p and 2 r1^2.
-template <class L>
-struct Conic {
-  L value, d1, d2;
-};
-template <class L, class Body>
-HWY_INLINE Conic<L> conic(const Body& b, L y1, L y2) {
-  const L u = b.r2 * b.r2, v = b.r1 * b.r1, p = b.p;
-  const L e1 = y1 - L(b.r1), e2 = y2 - L(b.r2);
-  // r2^2 (y1 - r1)^2 + r1^2 y2 (y2 - 2 r2) + 2 p y1 y2
-  const L value = u * (e1 * e1) + v * (y2 * (e2 - L(b.r2))) + L(2.0) * p * (y1 * y2);
-  return {value, L(2.0) * (u * e1 + p * y2), L(2.0) * (v * e2 + p * y1)};
-}
-
 template <class T>
 HWY_INLINE T evaluate(const HoffmannPolynomial& b, const Inputs<T>& in) {
-  using L = LaneOf<T>;
-  const T x = in.arg(0), y = in.arg(1);
-  const Conic<L> c = conic<L>(b, value_of(x), value_of(y));
-  return chain(x, y, c.value, c.d1, c.d2, L(2.0 * b.r2 * b.r2), L(2.0 * b.p), L(2.0 * b.r1 * b.r1));
+  const T y1 = in.arg(0), y2 = in.arg(1);
+  const double w = b.r1 * b.r2 - b.p;
+  return square(y1 * b.r2 + y2 * b.r1 - T(b.r1 * b.r2)) - y1 * y2 * (2.0 * w);
 }
 
 template <class T>
@@ -41,24 +27,14 @@ HWY_INLINE T evaluate(const HoffmannBlend& b, const Inputs<T>& in) {
   const T x1 = in.arg(0) * argument_sign(b.role, 0), x2 = in.arg(1) * argument_sign(b.role, 1);
   const L v1 = value_of(x1), v2 = value_of(x2), zero = 0.0;
   const auto blended = v1 - v2 < L(b.r1) && v2 - v1 < L(b.r2);  // false for two infinite arguments
-  const L y1 = select(blended, lane::max(v1 - v2, zero), zero);
-  const L y2 = select(blended, lane::max(v2 - v1, zero), zero);
-  const L a = b.r1 * b.r1 + b.r2 * b.r2 + 2.0 * b.p, c = conic<L>(b, y1, y2).value;
-  const L half = L(b.r1 * b.r2 * (b.r1 + b.r2)) - L(b.r2 * b.r2 + b.p) * y1 - L(b.r1 * b.r1 + b.p) * y2;
-  // (2 a h' + b)/2 = sqrt(b^2/4 - a c). With s = y1 - y2 and w = r1 r2 - p the discriminant is a sum of terms
-  // that are not negative where -r2 <= s <= r1: w (w s^2 + 2 r1 r2 (r1 - s) (r2 + s)).
-  const L s = y1 - y2, w = b.r1 * b.r2 - b.p;
-  const L root = lane::sqrt(w * (w * (s * s) + L(2.0 * b.r1 * b.r2) * ((L(b.r1) - s) * (L(b.r2) + s))));
-  const auto forward = half > zero;
-  const L h = select(forward, -c, root - half) / select(forward, half + root, a);
-  const Conic<L> at = conic<L>(b, y1 - h, y2 - h);
-  const L i = L(-0.5) / root;  // 1/(B_1 + B_2)
-  const L f1 = at.d1 * i, f2 = at.d2 * i;
-  // Both derivatives of B_H(x1 - U, x2 - U) = 0: U_11 = U_22 = -U_12
-  const L k =
-      (L(2.0 * b.r2 * b.r2) * (f2 * f2) - L(4.0 * b.p) * (f1 * f2) + L(2.0 * b.r1 * b.r1) * (f1 * f1)) * i;
-  const L least = lane::min(v1, v2);
-  const T blend = chain(x1, x2, lane::min(least + h, least), f1, f2, k, -k, k);
+  const auto first = v1 <= v2;                                  // is the smaller
+  const L d = select(blended, lane::abs(v1 - v2), zero);
+  const L r_near = select(first, L(b.r1), L(b.r2)), r_far = select(first, L(b.r2), L(b.r1));
+  const Arc<L> at = arc(b.r1 + b.r2, b.w, d, r_near * (r_far - d));
+  const L far = d + at.t, y1 = select(first, at.t, far), y2 = select(first, far, at.t);
+  const ArcGradient<L> g = arc_gradient(b, y1, y2, at.q);
+  const L i = L(1.0) / (g.g1 + g.g2), bend = -(((g.k * i) * i) * i);
+  const T blend = chain(x1, x2, lane::min(v1, v2) - at.t, g.g1 * i, g.g2 * i, bend, -bend, bend);
   return choose<T>(blended, blend, smaller(x1, x2)) * result_sign(b.role);
 }
 
@@ -78,6 +54,9 @@ namespace detail {
 HWY_EXPORT(hoffmann_polynomial_simd);
 HWY_EXPORT(hoffmann_blend_simd);
 
+HoffmannBlend::HoffmannBlend(double r1_, double r2_, double p, ZeroRole role_)
+    : r1(r1_), r2(r2_), role(role_), w(std::fma(r1, r2, -p)) {}
+
 /// Term by term: it is not monotone, and no scene uses it.
 static Range polynomial_range(const void* body, const Box&, std::span<const Range> args) {
   const auto& b = *static_cast<const HoffmannPolynomial*>(body);
@@ -88,8 +67,7 @@ static Range polynomial_range(const void* body, const Box&, std::span<const Rang
   return spread({-most, most}, range_slack);
 }
 
-/// The values lie around zero: what rounding adds is measured by the radii. h' is a quotient of terms of
-/// which the smallest, sqrt(D), is at least r (r1 r2 - p), r the smaller radius.
+/// The values lie around zero: what rounding adds is measured by the arguments and the radii.
 static Range blend_range(const void* body, const Box&, std::span<const Range> args) {
   const auto& b = *static_cast<const HoffmannBlend*>(body);
   const Range r = b.role == ZeroRole::make_difference

@@ -43,15 +43,11 @@ OperatorValues read_values(NodeInputs& in, const Operator& row) {
   v.p = in.number("p");
   check_radius(in, "r1", v.r1, row);
   check_radius(in, "r2", v.r2, row);
-  const double most = v.r1 * v.r2 * (1.0 - 1e-6), least = -1e6 * v.r1 * v.r2;
+  const double most = v.r1 * v.r2 * (1.0 - 1e-6);
   if (!(v.p <= most))
     in.problem("p", scene_error::invalid_parameter,
                "is " + number_text(v.p) + ", must be <= r1 r2 (1 - 1e-6) = " + number_text(most) +
                    ": the blend would be a chord");
-  if (!(v.p >= least))
-    in.problem("p", scene_error::invalid_parameter,
-               "is " + number_text(v.p) + ", must be >= -1e6 r1 r2 = " + number_text(least) +
-                   ": the blend would be a corner");
   return v;
 }
 

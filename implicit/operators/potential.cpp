@@ -25,7 +25,7 @@ template <class T>
 HWY_INLINE T evaluate(const Blanc& b, const Inputs<T>& in) {
   using L = LaneOf<T>;
   const T x = in.arg(0);
-  const L d = lane::min(value_of(x), L(2.0)), u = d * d, s = b.softness;
+  const L d = lane::max(lane::min(value_of(x), L(2.0)), L(0.0)), u = d * d, s = b.softness;
   const auto inner = d <= L(0.5);
   const L bend = s * ((L(1.0) - (d + d)) * (L(1.0) + (d + d))), rest = (L(1.0) - d) * (L(1.0) + d);
   const L denominator = select(inner, lane::max(bend + L(4.5) * u, L(1e-300)), (L(0.75) + L(1.5) * u) - bend);
@@ -43,7 +43,8 @@ template <class T>
 HWY_INLINE T evaluate(const Wyvill&, const Inputs<T>& in) {
   using L = LaneOf<T>;
   const T x = in.arg(0);
-  const L d = lane::min(value_of(x), L(2.0)), u = d * d, v = (L(1.0) - d) * (L(1.0) + d), ninth = 1.0 / 9.0;
+  const L d = lane::max(lane::min(value_of(x), L(2.0)), L(0.0)), u = d * d, v = (L(1.0) - d) * (L(1.0) + d),
+          ninth = 1.0 / 9.0;
   const L pu = -ninth * (v * (L(22.0) - L(12.0) * u));  // dP/du
   const L puu = ninth * (L(34.0) - L(24.0) * u);
   return within_support(x, 1.0, ninth * ((v * v) * (L(9.0) - L(4.0) * u)), (d + d) * pu,
@@ -54,7 +55,8 @@ template <class T>
 HWY_INLINE T evaluate(const Gaussian&, const Inputs<T>& in) {
   using L = LaneOf<T>;
   const T x = in.arg(0);
-  const L d = lane::min(value_of(x), L(16.0)), u = d * d, k = 2.77258872223978123767;  // 4 ln 2
+  const L d = lane::max(lane::min(value_of(x), L(16.0)), L(0.0)), u = d * d,
+          k = 2.77258872223978123767;  // 4 ln 2
   const L f = lane::exp(-(k * u)), c = L(2.0) * k * f;
   return within_support(x, 15.0, f, -(c * d), c * (L(2.0) * k * u - L(1.0)));
 }
@@ -63,7 +65,7 @@ template <class T>
 HWY_INLINE T evaluate(const GaussianWindowed&, const Inputs<T>& in) {
   using L = LaneOf<T>;
   const T x = in.arg(0);
-  const L d = lane::min(value_of(x), L(2.0)), u = d * d, v = (L(1.0) - d) * (L(1.0) + d);
+  const L d = lane::max(lane::min(value_of(x), L(2.0)), L(0.0)), u = d * d, v = (L(1.0) - d) * (L(1.0) + d);
   const L k = 0.47113214262553408;  // 4 ln(9/8)
   const L e = lane::exp(-(k * u)), kv = k * v;
   const L pu = -(e * v) * (L(2.0) + kv), puu = e * (L(2.0) + L(4.0) * kv + kv * kv);

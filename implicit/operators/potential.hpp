@@ -6,7 +6,7 @@
 //   wyvill             1 - (22 u - 17 u^2 + 4 u^3) / 9 = (1 - u)^2 (9 - 4 u) / 9
 //   gaussian           2^(-4 u), P(1) = 1/16; taken as 0 for d >= 15, where it is below 1e-270
 //   gaussian_windowed  (1 - u)^2 exp(-k u), k = 4 ln(9/8)
-// C1 on [0, infinity); softness s >= 0 (any: the denominators are positive inside), |P'| <= 2 + 16 s / 9.
+// A negative d counts as 0. C1 on [0, infinity); softness s >= 0 (any: the denominators are positive inside), |P'| <= 2 + 16 s / 9.
 // Blanc and Schlick 1995; Wyvill, McPheeters and Wyvill 1986; Blinn 1982. Range: end points.
 #include "implicit/eval/op.hpp"
 
