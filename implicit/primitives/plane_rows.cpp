@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "implicit/primitives/plane.hpp"
 #include "implicit/primitives/primitive_inputs.hpp"
@@ -11,13 +13,29 @@ constexpr std::array plane_params{
     NodeParam{.type = NodeParam::Type::point, .info = {.name = "normal", .description = "unit normal n"}},
     length_param("a", "distance a from the plane X.n = 0 at which the value is 1")};
 
+/// Where X.n <= reach, and >= -reach on both sides: a box without end when n is an axis. Several of them
+/// have a bounded box in common.
+std::optional<Box> layer(const Vec3& normal, double reach, bool both_sides) {
+  int axis = 0;
+  if (normal.cwiseAbs().maxCoeff(&axis) < normal.cwiseAbs().sum()) return std::nullopt;
+  const Range all = Range::everything(), inner = Range{reach, reach}.widened(range_slack);
+  Box box{Vec3::Constant(all.lo), Vec3::Constant(all.hi)};
+  if (both_sides || normal[axis] > 0.0) box.hi[axis] = inner.hi;
+  if (both_sides || normal[axis] < 0.0) box.lo[axis] = -inner.hi;
+  return box;
+}
+
 template <class Body>
 Node make_plane(NodeInputs& in, bool distance) {
   const Vec3 normal = read_direction(in, "normal");
+  const double a = read_length(in, "a");
   Node node;
   node.distance = distance;
+  node.region = [normal, a, distance](double value) {
+    return layer(normal, a * (distance ? std::max(0.0, value) : value), std::is_same_v<Body, Slab>);
+  };
   node.ray_linear = distance;  // a signed function is homogeneous, but no ray-linear function into [0, inf)
-  node.emit = emit_body(Body{normal / read_length(in, "a")});
+  node.emit = emit_body(Body{normal / a});
   return node;
 }
 

@@ -30,7 +30,8 @@ struct Node {
   /// Adds the node's steps, seen from the coordinates that `frame` leads to.
   std::function<StepIndex(TapeBuilder&, const Frame&)> emit;
   /// Encloses every point, in the node's own coordinates, whose value lies on the solid's side of `value` (<=
-  /// for levels zero and one, >= for the others); nullopt: unbounded or not known.
+  /// for levels zero and one, >= for the others); nullopt: not known. Ends may be
+  /// infinite.
   std::function<std::optional<Box>(double value)> region = [](double) { return std::nullopt; };
   /// Of profiles and curves: whatever their users agree on. Of placements: the Frame from the coordinates of
   /// the node to those of the placed one.

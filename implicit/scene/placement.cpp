@@ -36,7 +36,7 @@ Node placed(const std::shared_ptr<const Node>& of, const Frame& frame) {
   };
   node.region = [of, frame](double value) -> std::optional<Box> {
     const std::optional<Box> box = of->region(value);
-    if (!box) return std::nullopt;
+    if (!box || !box->finite()) return std::nullopt;
     return frame.scene(*box);
   };
   node.detail = std::make_shared<const Frame>(frame);

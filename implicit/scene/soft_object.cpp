@@ -110,7 +110,7 @@ std::optional<Box> contoured_region(const Node& distance, const Node& contour, d
   const double s = std::max(0.0, 2.0 * t - 1.0);
   const std::optional<Box> object = distance.region(0.5), outline = contour.region(1.0);
   const std::optional<Box> floored = distance.region(0.5 + s * w_floor);
-  if (!object || !outline || !floored) return std::nullopt;
+  if (!object || !outline || !floored || !object->finite() || !outline->finite()) return std::nullopt;
   return hull(between(*object, *outline, s), *floored);
 }
 
