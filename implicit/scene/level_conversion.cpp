@@ -20,7 +20,7 @@ template <class T>
 HWY_INLINE T evaluate(const LevelLogarithm&, const Inputs<T>& in) {
   using L = LaneOf<T>;
   const T x = in.arg(0);
-  const L v = value_of(x), tiny = 1e-300, huge = std::numeric_limits<double>::max();
+  const L v = value_of(x), tiny = 1e-100, huge = std::numeric_limits<double>::max();
   const auto regular = v > tiny && v <= huge;
   const L inside = select(regular, v, L(1.0));
   const L f = select(v > huge, v, lane::log(select(regular, v, tiny)));

@@ -1,10 +1,10 @@
 #include "implicit/scene/made_nodes.hpp"
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "kernel/base/error.hpp"
-#include "kernel/base/number_text.hpp"
 
 namespace blendwright::detail {
 namespace {
@@ -91,9 +91,9 @@ StepIndex MadeNodes::emit_all(Emission& emission, Key wanted) {
     const StepIndex step = entry.own.emit(*emission.builder, frame);
     if (entry.member) emission.builder->member({step, entry.own.level, *entry.member});
     emission.steps.emplace(done, step);
-    if (emission.steps.size() > most_steps)
-      throw InputError("", "takes more than " + number_text(static_cast<double>(most_steps)) +
-                               " steps to compute, because it places nodes of placed nodes; must take fewer");
+    if (emission.steps.size() > most_placed_nodes)
+      throw InputError("", "is made of more than " + std::to_string(most_placed_nodes) +
+                               " nodes, each counted once for every place it is put to; must be of fewer");
   }
   return emission.steps.at(wanted);
 }

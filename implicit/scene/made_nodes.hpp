@@ -13,8 +13,9 @@
 
 namespace blendwright::detail {
 
-/// A scene whose field would take more steps is refused.
-inline constexpr std::size_t most_steps = 4'000'000;
+/// A scene whose field would take more steps is refused, and one with more nodes when each is counted once
+/// for every place it is put to.
+inline constexpr std::size_t most_steps = 4'000'000, most_placed_nodes = 1'000'000;
 /// A region that depends on more regions counts as unknown.
 inline constexpr std::size_t most_regions = 1'000'000;
 

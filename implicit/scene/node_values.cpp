@@ -12,7 +12,7 @@ namespace {
 
 using Type = NodeParam::Type;
 
-std::string count_text(std::size_t n) { return number_text(static_cast<double>(n)); }
+std::string count_text(std::size_t n) { return std::to_string(n); }
 std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -13,6 +13,7 @@ Scene build_scene(const SceneSpec& spec) {
   return {ScalarField(std::move(tape), solid.level, builder.bounds(), std::move(members)),
           spec.unit,
           solid.ray_linear,
+          solid.origin,
           spec.nodes.size(),
           steps,
           builder.warnings()};

@@ -11,7 +11,8 @@ namespace blendwright {
 struct Scene {
   ScalarField field;
   LengthUnit unit = LengthUnit::millimetre;
-  bool ray_linear = false;
+  bool ray_linear = false;     ///< f(origin + a X) = a f(origin + X), a >= 0
+  Vec3 origin = Vec3::Zero();  ///< of ray-linearity
   std::size_t nodes = 0, steps = 0;  ///< of the description, of the tape
   std::vector<Problem> warnings;
 };
