@@ -9,7 +9,6 @@
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
 
 #include "implicit/eval/kernel-inl.hpp"
-#include "implicit/number/p_norm-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace blendwright::detail::HWY_NAMESPACE {
@@ -19,69 +18,68 @@ HWY_INLINE T not_negative(const T& u) {
   return choose<T>(value_of(u) >= LaneOf<T>(0.0), u, T(0.0));
 }
 
-/// The sum of all arguments, the largest value, and the largest but one.
+/// The argument that the others are compared with: the first of the largest, or of the smallest.
+enum class Lead { largest, smallest };
 template <class T>
 struct Survey {
-  T sum;
-  LaneOf<T> first, second;
+  T lead;
+  LaneOf<T> next;  ///< the largest, or smallest, of the others
 };
 template <class T>
-HWY_INLINE Survey<T> survey(const Inputs<T>& in) {
-  Survey<T> s{not_negative(in.arg(0)), LaneOf<T>(0.0), LaneOf<T>(0.0)};
-  s.first = value_of(s.sum);
+HWY_INLINE Survey<T> survey(const Inputs<T>& in, Lead lead) {
+  const bool largest = lead == Lead::largest;
+  Survey<T> s{not_negative(in.arg(0)), largest ? 0.0 : std::numeric_limits<double>::infinity()};
   for (std::size_t i = 1; i < in.args(); ++i) {
     const T u = not_negative(in.arg(i));
-    s.sum = s.sum + u;
-    s.second = lane::max(s.second, lane::min(s.first, value_of(u)));
-    s.first = lane::max(s.first, value_of(u));
+    const LaneOf<T> v = value_of(u), first = value_of(s.lead);
+    s.next = largest ? lane::max(s.next, lane::min(first, v)) : lane::min(s.next, lane::max(first, v));
+    s.lead = largest ? larger(s.lead, u) : smaller(s.lead, u);
   }
   return s;
+}
+
+// S = sum (u_i/m)^n or sum (m/u_i)^n with m the lead, whose own term is the constant 1: so nothing overflows,
+// and where it alone matters no derivatives cancel.
+template <class T>
+HWY_INLINE T power_sum(const Inputs<T>& in, const Power& n, const T& m, Lead lead) {
+  using L = LaneOf<T>;
+  T sum = T(1.0);
+  auto found = L(0.0) > L(0.0);
+  for (std::size_t i = 0; i < in.args(); ++i) {
+    const T u = not_negative(in.arg(i));
+    const auto is_lead = value_of(u) == value_of(m) && !found;
+    found = found || is_lead;
+    const T ratio = lead == Lead::largest ? u / m : m / choose<T>(value_of(u) > L(0.0), u, T(1.0));
+    sum = sum + choose<T>(is_lead, T(0.0), power(ratio, n));
+  }
+  return sum;
 }
 
 template <class T>
 HWY_INLINE T evaluate(const Norm& b, const Inputs<T>& in) {
   using L = LaneOf<T>;
-  const Survey<T> s = survey(in);
-  const L most = std::numeric_limits<double>::max();
-  if (b.n.exponent == 1.0)
-    return choose<T>(s.first <= most, s.sum, T(std::numeric_limits<double>::infinity()));
-  const L scale = norm_scale(s.first), inverse = L(1.0) / scale;
-  T powers = power(scaled(not_negative(in.arg(0)), inverse), b.n);
-  for (std::size_t i = 1; i < in.args(); ++i)
-    powers = powers + power(scaled(not_negative(in.arg(i)), inverse), b.n);
-  const T norm = scaled(power(powers, b.inverse_n), scale);
-  const T finite = choose<T>(s.second == L(0.0), s.sum, norm);
-  return choose<T>(s.first <= most, finite, T(std::numeric_limits<double>::infinity()));
-}
-
-/// (m/u)^n as a number; m counts as constant.
-template <class T>
-HWY_INLINE T inverse_power(const T& u, LaneOf<T> m, const Power& n) {
-  using L = LaneOf<T>;
-  const L i = L(1.0) / lane::max(value_of(u), L(negligible)), q = m * i, q1 = -(q * i);
-  return power(chain(u, q, q1, L(-2.0) * (q1 * i)), n);
+  const L most = std::numeric_limits<double>::max(), nothing = negligible;
+  const Survey<T> s = survey(in, Lead::largest);
+  const auto ordinary = value_of(s.lead) > nothing && value_of(s.lead) <= most;
+  T sum = not_negative(in.arg(0));
+  for (std::size_t i = 1; i < in.args(); ++i) sum = sum + not_negative(in.arg(i));
+  const T infinite = T(std::numeric_limits<double>::infinity());
+  if (b.n.exponent == 1.0) return choose<T>(value_of(s.lead) <= most, sum, infinite);
+  const T m = choose<T>(ordinary, s.lead, T(1.0));
+  const T norm = m * power(power_sum(in, b.n, m, Lead::largest), b.inverse_n);
+  const T finite = choose<T>(s.next <= L(0.0) || value_of(s.lead) <= nothing, sum, norm);
+  return choose<T>(value_of(s.lead) <= most, finite, infinite);
 }
 
 template <class T>
 HWY_INLINE T evaluate(const InverseNorm& b, const Inputs<T>& in) {
   using L = LaneOf<T>;
-  T least = not_negative(in.arg(0));
-  L second = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < in.args(); ++i) {
-    const T u = not_negative(in.arg(i));
-    second = lane::min(second, lane::max(value_of(least), value_of(u)));
-    least = smaller(least, u);
-  }
-  const L m = lane::max(value_of(least), L(negligible)), inverse_exponent = b.inverse_n.exponent;
-  T powers = inverse_power(in.arg(0), m, b.n);
-  for (std::size_t i = 1; i < in.args(); ++i) powers = powers + inverse_power(in.arg(i), m, b.n);
-  // m S^(-1/n), 1 <= S
-  const L s = value_of(powers), is = L(1.0) / s, f = m / lane_power(s, b.inverse_n);
-  const L f1 = -(inverse_exponent * f) * is;
-  const T norm = chain(powers, f, f1, -((inverse_exponent + L(1.0)) * f1) * is);
-  const L nothing = negligible;
-  const auto alone = value_of(least) <= nothing || second > L(std::numeric_limits<double>::max());
-  return choose<T>(second <= nothing, T(0.0), choose<T>(alone, least, norm));
+  const L most = std::numeric_limits<double>::max(), nothing = negligible;
+  const Survey<T> s = survey(in, Lead::smallest);
+  const auto alone = value_of(s.lead) <= nothing || s.next > most;
+  const T m = choose<T>(alone, T(1.0), s.lead);
+  const T norm = m / power(power_sum(in, b.n, m, Lead::smallest), b.inverse_n);
+  return choose<T>(s.next <= nothing, T(0.0), choose<T>(alone, s.lead, norm));
 }
 
 KernelSet norm_simd() { return kernel_set<Norm, Simd>(); }
