@@ -8,7 +8,7 @@ namespace blendwright::detail {
 namespace {
 
 std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
-std::string count_text(std::size_t n) { return number_text(static_cast<double>(n)); }
+std::string count_text(std::size_t n) { return std::to_string(n); }
 
 std::string unknown_kind(const std::string& kind) {
   std::vector<std::string> known;
