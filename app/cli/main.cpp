@@ -149,7 +149,8 @@ void add_mesh(CLI::App& app, MeshCommand& command, const Console& console, int& 
   sub->add_option("--max-memory", command.max_memory, "refuse what needs more, in bytes, or with K, M or G")
       ->capture_default_str()
       ->check(readable(memory_argument, "SIZE"));
-  sub->add_option("--colour", command.colour, "column that colours a .png; \"list columns\" names them");
+  sub->add_option("--colour,--color", command.colour,
+                  "column that colours a .png; \"list columns\" names them");
   sub->add_flag("--force", command.force, "replace files that exist");
   CLI::Option* json = sub->add_flag("--json", command.json, "print JSON instead of the table");
   sub->add_flag("--times", command.times, "time of each stage in the JSON")->needs(json);
