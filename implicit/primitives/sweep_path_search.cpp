@@ -15,10 +15,15 @@ struct Slope {
   double w;  ///< |w|
 };
 Slope slope(const PathPiece& p, const Vec3& X, double x) {
-  const PathJet j = p.jet(x);
-  const Vec3 w = X - j[0];
+  Vec3 C = p.c[7], C1 = Vec3::Zero(), C2 = Vec3::Zero();  // C2: half of C''
+  for (std::size_t k = 7; k-- > 0;) {
+    C2 = C2 * x + C1;
+    C1 = C1 * x + C;
+    C = C * x + p.c[k];
+  }
+  const Vec3 w = X - C;
   const double f = w.squaredNorm();
-  return {f, w.dot(j[1]), j[1].squaredNorm() - w.dot(j[2]), std::sqrt(f)};
+  return {f, w.dot(C1), C1.squaredNorm() - 2.0 * w.dot(C2), std::sqrt(f)};
 }
 /// Bound of |dD/dx| = |3 C'.C'' - w.C'''| within h of a place where |w| is this.
 double bend(const PathPiece& p, double w, double h) {
@@ -31,7 +36,7 @@ double improved(double f) { return f * (1.0 - 1e-13); }
 
 class Path::Search {
  public:
-  Search(const Path& path, const Vec3& X) : path_(path), X_(X) { descend(0); }
+  Search(const Path& path, const Vec3& X) : path_(path), X_(X) { descend(0, gap(0)); }
   [[nodiscard]] Foot best() const { return best_; }
 
  private:
@@ -39,8 +44,7 @@ class Path::Search {
     const Ball& b = path_.balls_[ball];
     return (X_ - b.centre).norm() - b.radius;
   }
-  void descend(std::size_t at) {
-    const double g = gap(at);
+  void descend(std::size_t at, double g) {
     if (g > 0.0 && g * g >= improved(f_)) return;
     const Ball& ball = path_.balls_[at];
     if (ball.count == 1) {
@@ -48,9 +52,14 @@ class Path::Search {
       part(-1.0, 1.0, 0);
       return;
     }
-    const bool left_first = gap(at + 1) <= gap(ball.right);
-    descend(left_first ? at + 1 : ball.right);
-    descend(left_first ? ball.right : at + 1);
+    const double left = gap(at + 1), right = gap(ball.right);
+    if (left <= right) {
+      descend(at + 1, left);
+      descend(ball.right, right);
+    } else {
+      descend(ball.right, right);
+      descend(at + 1, left);
+    }
   }
   void part(double a, double b, int depth) {
     const PathPiece& p = path_.pieces_[piece_];
