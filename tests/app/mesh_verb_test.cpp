@@ -216,6 +216,27 @@ TEST_F(MeshVerb, DrawsAPictureWhereThereIsADisplay) {
   EXPECT_EQ(content(folder_ / "ball.png").substr(1, 3), "PNG");
 }
 
+TEST_F(MeshVerb, MeshesASceneOfAHundredThousandNodes) {
+  // A grid of balls of radius 1 that do not touch, each of three nodes.
+  std::string nodes, names;
+  constexpr int side = 33, count = side * side * side;
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "\"" + std::to_string(i) + "\"";
+    nodes +=
+        name + R"(: { "kind": "place", "move": [)" + std::to_string(5 * (i % side)) + "," +
+        std::to_string(5 * (i / side % side)) + "," + std::to_string(5 * (i / side / side)) +
+        R"(], "of": { "kind": "soft_object", "distance": { "kind": "lp_metric", "a": 2, "b": 2, "c": 2, "n": 2 } } },
+)";
+    names += (i == 0 ? "" : ", ") + name;
+  }
+  write(folder_ / "scene.json", "{ \"nodes\": { " + nodes + R"("all": { "kind": "soft_blend", "of": [)" +
+                                    names + "] } }, \"solid\": \"all\" }");
+  const JsonValue report = figures("--cell 0.5 --box=-2,-2,-2,18,18,18");
+  EXPECT_EQ(number(report, "nodes"), 3.0 * count + 1.0);
+  EXPECT_EQ(number(report, "components"), 64.0);
+  EXPECT_EQ(number(report, "euler_characteristic"), 128.0);
+}
+
 TEST_F(MeshVerb, StopsAtCtrlCAndLeavesNothing) {
   // The scene comes through a pipe that stays open, so the program waits until the signal is there.
   Running running({"mesh", "-", "--cells", "64", "-o", (folder_ / "out.vtp").string()}, scene,
