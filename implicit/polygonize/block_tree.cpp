@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
+#include "implicit/polygonize/batches.hpp"
 #include "implicit/polygonize/memory_need.hpp"
-#include "kernel/base/parallel_for.hpp"
 
 namespace blendwright::detail {
 namespace {
@@ -119,11 +120,12 @@ double estimated_blocks(const Descent& descent, const std::vector<Node>& nodes, 
 
 /// One level of the descent; the order of the result depends on the nodes only.
 std::vector<Node> next_level(const Descent& descent, const std::vector<Node>& nodes, int shift,
-                             bool& inside_at_side) {
+                             bool& inside_at_side, const Progress& progress) {
   std::vector<Children> children(nodes.size());
-  parallel_for(nodes.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) children[n] = descent.children(nodes[n], shift);
-  });
+  const double levels = descent.levels(), done = levels - 1.0 - shift;
+  for_each_in_batches(nodes.size(), progress, 0.1 * done / levels, 0.1 * (done + 1.0) / levels,
+                      "finding blocks",
+                      [&](std::size_t n) { children[n] = descent.children(nodes[n], shift); });
   std::size_t count = 0;
   for (const Children& c : children) count += c.size;
   std::vector<Node> next;
@@ -172,9 +174,8 @@ LiveBlocks find_live_blocks(const ScalarField& field, const CellGrid& grid, bool
   result.inside_at_side = root.inside_at_side;
   std::vector<Node> nodes(root.list.begin(), root.list.begin() + static_cast<std::ptrdiff_t>(root.size));
   for (int shift = descent.levels(); shift > 0; --shift) {
-    progress.at(0.1 * (1.0 - static_cast<double>(shift) / descent.levels()), "finding blocks");
     require_room(descent, nodes, shift, max_memory, grid.cell());
-    nodes = next_level(descent, nodes, shift - 1, result.inside_at_side);
+    nodes = next_level(descent, nodes, shift - 1, result.inside_at_side, progress);
   }
   require_memory(static_cast<double>(nodes.size()) * bytes_per_block, max_memory, grid.cell());
   result.blocks.reserve(nodes.size());

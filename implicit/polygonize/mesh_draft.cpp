@@ -1,10 +1,9 @@
 #include "implicit/polygonize/mesh_draft.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "kernel/base/parallel_for.hpp"
+#include "implicit/polygonize/batches.hpp"
 
 namespace blendwright::detail {
 namespace {
@@ -31,22 +30,11 @@ std::vector<GridEdge> crossed_edges(const BlockSurface& surface) {
   return edges;
 }
 
-void for_each_block(std::size_t blocks, const Progress& progress, double from, double to,
-                    std::string_view stage, const std::function<void(std::size_t)>& body) {
-  const std::size_t batch = std::clamp<std::size_t>(blocks / 20, 128, 4096);
-  for (std::size_t first = 0; first < blocks; first += batch) {
-    progress.at(from + (to - from) * static_cast<double>(first) / static_cast<double>(blocks), stage);
-    parallel_for(std::min(batch, blocks - first), 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) body(first + n);
-    });
-  }
-}
-
 void add_columns(MeshDraft& draft, const Progress& progress, double from, double to) {
   TriMesh& mesh = draft.mesh;
   std::vector<double> mean(mesh.points.size(), nan), gaussian(mesh.points.size(), nan),
       member(mesh.points.size());
-  for_each_block(draft.blocks.size(), progress, from, to, "measuring curvature", [&](std::size_t b) {
+  for_each_in_batches(draft.blocks.size(), progress, from, to, "measuring curvature", [&](std::size_t b) {
     MeshBlock& block = draft.blocks[b];
     const std::size_t count = block.surface.vertices();
     if (count == 0) return;

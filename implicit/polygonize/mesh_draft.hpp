@@ -1,6 +1,5 @@
 #pragma once
 // A mesh in the making: what the stages of polygonize() hand on.
-#include <functional>
 #include <vector>
 
 #include "implicit/polygonize/connectivity.hpp"
@@ -41,10 +40,5 @@ void repair(MeshDraft& draft);
 
 /// Fills the columns named in polygonize().
 void add_columns(MeshDraft& draft, const Progress& progress, double from, double to);
-
-/// Calls body(block) for every block, in parallel, and progress between batches of blocks, at fractions in
-/// [from, to].
-void for_each_block(std::size_t blocks, const Progress& progress, double from, double to,
-                    std::string_view stage, const std::function<void(std::size_t)>& body);
 
 }  // namespace blendwright::detail

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "implicit/polygonize/batches.hpp"
 #include "implicit/polygonize/memory_need.hpp"
 #include "implicit/polygonize/mesh_draft.hpp"
 #include "implicit/polygonize/mesh_facts.hpp"
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
-#include "kernel/base/parallel_for.hpp"
 
 namespace blendwright {
 namespace detail {
@@ -194,13 +194,14 @@ FieldMesh polygonize(const ScalarField& field, const MeshOptions& options, const
   draft.facts.cut_by_box = draft.live.inside_at_side;
   const std::size_t blocks = draft.live.blocks.size();
   draft.blocks.resize(blocks);
-  for_each_block(blocks, progress, 0.1, 0.4, "sampling", [&](std::size_t b) {
+  for_each_in_batches(blocks, progress, 0.1, 0.4, "sampling", [&](std::size_t b) {
     draft.blocks[b] = sampled(draft, b);
     if (draft.blocks[b].surface.vertices() == 0) draft.live.blocks[b].model.reset();
   });
   number(draft);
-  for_each_block(blocks, progress, 0.4, 0.7, "projecting", [&](std::size_t b) { place_vertices(draft, b); });
-  for_each_block(blocks, progress, 0.7, 0.8, "connecting", [&](std::size_t b) { connect(draft, b); });
+  for_each_in_batches(blocks, progress, 0.4, 0.7, "projecting",
+                      [&](std::size_t b) { place_vertices(draft, b); });
+  for_each_in_batches(blocks, progress, 0.7, 0.8, "connecting", [&](std::size_t b) { connect(draft, b); });
   repair(draft);
   draft.facts.without_normal = fill_missing_normals(draft.mesh);
   measure(draft);
