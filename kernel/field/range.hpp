@@ -17,9 +17,12 @@ struct Range {
   [[nodiscard]] static constexpr Range everything() {
     return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   }
-  /// The range with both ends moved out by `relative` of their own size: what rounding can add. Zero stays.
+  /// The range with both ends moved out by `relative` of their own size: what rounding can add. Zero and
+  /// infinity stay.
   [[nodiscard]] Range widened(double relative) const {
-    return {lo - relative * std::abs(lo), hi + relative * std::abs(hi)};
+    const double infinity = std::numeric_limits<double>::infinity();
+    return {lo == infinity ? lo : lo - relative * std::abs(lo),
+            hi == -infinity ? hi : hi + relative * std::abs(hi)};
   }
   bool operator==(const Range&) const = default;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "implicit/scene/scene.hpp"
 #include "kernel/base/error.hpp"
@@ -112,6 +113,19 @@ TEST(ZeroLevel, HasTheSameSurface) {
     ASSERT_TRUE(scene.field.bounds());
     EXPECT_NEAR(scene.field.bounds()->hi.z(), 2.0, 1e-9);
   }
+}
+
+// An erosion by something larger is infinite everywhere, and so is its range.
+TEST(ZeroLevel, OfInfinityIsInfinite) {
+  SceneSpec spec =
+      scene_of({ball("b", 2.0), ball("larger", 3.0),
+                part("e", "erosion", {{"of", ref("b")}, {"by", ref("larger")}, {"n", 2.0}}),
+                part("x", "zero_level", {{"of", ref("e")}, {"form", std::string("logarithm")}})});
+  spec.strict = false;
+  const Scene scene = build_scene(spec);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(scene.field.value(Vec3(1, 2, 3)), infinity);
+  EXPECT_EQ(scene.field.range({Vec3(1.5, 1.5, 1.5), Vec3(1.6, 1.6, 1.6)}), (Range{infinity, infinity}));
 }
 
 TEST(Members, AreSoftObjectsAndBareDistances) {

@@ -161,6 +161,7 @@ class RandomScene {
     Values values;
     for (const NodeParam& p : kind.params)
       if (p.type == NodeParam::Type::node) values[std::string(p.info.name)] = ref(gauge(depth - 1));
+    if (kind.name == "ray_scaling") values["by"] = ref(gauge(0));  // must be finite, too
     values["n"] = kind.name == "ray_scaling" ? uniform(rng_, -1.5, 1.5) : uniform(rng_, 1.0, 3.0);
     if (kind.name == "erosion_after_dilation") {
       values.erase("n");
