@@ -59,6 +59,22 @@ struct Shortcut {
   [[nodiscard]] static Shortcut to_argument(std::size_t i) { return {Kind::argument, 0.0, i}; }
 };
 
+/// What a linear bound is made from, at local coordinates y = centre + axes t, t in [-1, 1]^3.
+struct LinearInput {
+  const Box& local;  ///< encloses them
+  Vec3 centre;
+  Eigen::Matrix3d axes;
+  Vec3 slack;  ///< what rounding of a frame can change of y
+  std::span<const LinearBound> args;
+  std::span<const Range> ranges;  ///< of the arguments
+  /// The slope in t of a function with this gradient in y.
+  [[nodiscard]] Vec3 slope(const Vec3& gradient) const { return axes.transpose() * gradient; }
+  /// The corner t = (+-1, +-1, +-1), bit i of k: the sign of t_i.
+  [[nodiscard]] Vec3 corner(unsigned k) const {
+    return centre + axes * Vec3(k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0);
+  }
+};
+
 struct Op {
   std::string_view name;
   KernelSet simd;    ///< for the best instruction set of this machine
@@ -68,6 +84,8 @@ struct Op {
   Range (*range)(const void* body, const Box& local, std::span<const Range> args);
   /// Null: never. A constant argument has lo == hi.
   Shortcut (*shortcut)(const void* body, const Box& local, std::span<const Range> args) = nullptr;
+  /// Contains the same values as range(), to first order. Null: the range.
+  LinearBound (*linear)(const void* body, const LinearInput& in) = nullptr;
 };
 
 /// The operation of a body type; each body's .cpp specialises it.

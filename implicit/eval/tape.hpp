@@ -37,6 +37,8 @@ class Tape final : public ScalarField::Model {
   void evaluate_scalar(Order order, PointArrays points, std::span<double> out) const;
   /// Linear in the number of steps, like within(). Shortcuts are taken here too, so both give one range.
   [[nodiscard]] Range range(const Box& box) const override;
+  /// From the operations' linear bounds, each the range where that is narrower; takes shortcuts like range().
+  [[nodiscard]] LinearBound linear(const Box& box) const override;
   /// Takes the shortcuts of the operations: arguments and constants stand in for steps that equal them on the
   /// box, and steps (and members) that no longer matter are left out. An operation on constants is folded
   /// only by its own shortcut: vector and scalar kernels need not agree to the last bit.

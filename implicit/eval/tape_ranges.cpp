@@ -5,7 +5,7 @@
 
 #include "implicit/eval/constant.hpp"
 #include "implicit/eval/slots.hpp"
-#include "implicit/eval/tape.hpp"
+#include "implicit/eval/tape_walk.hpp"
 
 namespace blendwright {
 namespace {
@@ -13,26 +13,6 @@ namespace {
 constexpr StepIndex none = std::numeric_limits<StepIndex>::max();
 
 }  // namespace
-
-/// What a walk over a tape finds out about a box; kept per thread, so that a walk allocates nothing.
-struct Tape::Walk {
-  std::vector<Box> boxes;           ///< of the frames
-  std::vector<Range> ranges;        ///< of the steps
-  std::vector<StepIndex> stand_in;  ///< the step that it equals on the box; itself: none
-  std::vector<bool> constant;       ///< whether it is a constant on the box, though its operation is not
-  std::vector<Range> args;
-  bool shorter = false;
-
-  std::vector<StepIndex> place;  ///< in the shortened tape
-  std::vector<std::int32_t> frame_place;
-  std::vector<StepIndex> last_use;
-  std::vector<std::uint32_t> free;
-
-  static Walk& mine() {
-    thread_local Walk walk;
-    return walk;
-  }
-};
 
 /// Ranges and stand-ins of all steps, arguments first.
 void Tape::bound(const Box& box, Walk& walk) const {

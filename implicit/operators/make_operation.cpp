@@ -11,14 +11,20 @@ using Nodes = std::vector<std::shared_ptr<const Node>>;
 
 std::string what_it_is(const Node& node) {
   if (node.level == Level::one && !node.distance) return "is of level one, but signed: not a distance";
+  if (node.any_value) return "is of half level, but its values may leave [0, 1]";
   return "is of level " + std::string(name(node.level));
+}
+
+/// Whether an operator with a level of its own can take the values: powers need signs and sizes to be right.
+bool in_domain(const Node& node) {
+  return (node.distance || node.level != Level::one) && !node.any_value;
 }
 
 /// All operands have the level of the operator, or of the first one; those of level one are never negative.
 void check_levels(NodeInputs& in, const Operator& row, const Nodes& of) {
   const Level level = row.level.value_or(of.front()->level);
   for (std::size_t i = 0; i < of.size(); ++i) {
-    const bool usable = of[i]->distance || level != Level::one || !row.level;
+    const bool usable = !row.level || in_domain(*of[i]);
     if (of[i]->level == level && usable) continue;
     const std::string required = row.level ? "" : ", as the first operand is";
     in.problem("of", scene_error::level_mismatch,
@@ -136,6 +142,7 @@ Node make_operation(NodeInputs& in, OperatorId id) {
     return std::ranges::all_of(of, [&](const auto& n) { return holds(*n); });
   };
   node.distance = one && all([](const Node& n) { return n.distance; });
+  node.any_value = !all([](const Node& n) { return !n.any_value; });
   node.origin = of.front()->origin;
   // Theorem 2 (Hsu): of ray-linear functions about one point
   node.ray_linear = one && row.ray_linear &&

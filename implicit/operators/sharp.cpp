@@ -54,6 +54,8 @@ KernelSet one_minus_scalar() { return kernel_set<OneMinus, double>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "implicit/eval/linear_rules.hpp"
+
 namespace blendwright {
 namespace detail {
 HWY_EXPORT(minimum_simd);
@@ -85,27 +87,43 @@ Range falling_range(const void* body, const Box&, Args args) {
   const auto at = [&](double x) { return scalar_value(op_for<Body>(), body, Vec3::Zero(), {&x, 1}); };
   return {at(args[0].hi), at(args[0].lo)};
 }
+
+static LinearBound one_minus_bound(const void*, const LinearInput& in) {
+  return constant_bound({1.0, 1.0}) + -1.0 * in.args[0];
+}
 }  // namespace detail
 
 template <>
 const Op& op_for<detail::Minimum>() {
   using namespace detail;
-  static const Op op{"min", HWY_DYNAMIC_DISPATCH(minimum_simd)(), HWY_STATIC_DISPATCH(minimum_scalar)(),
-                     minimum_range, minimum_shortcut};
+  static const Op op{"min",
+                     HWY_DYNAMIC_DISPATCH(minimum_simd)(),
+                     HWY_STATIC_DISPATCH(minimum_scalar)(),
+                     minimum_range,
+                     minimum_shortcut,
+                     minimum_bound};
   return op;
 }
 template <>
 const Op& op_for<detail::Maximum>() {
   using namespace detail;
-  static const Op op{"max", HWY_DYNAMIC_DISPATCH(maximum_simd)(), HWY_STATIC_DISPATCH(maximum_scalar)(),
-                     maximum_range, maximum_shortcut};
+  static const Op op{"max",
+                     HWY_DYNAMIC_DISPATCH(maximum_simd)(),
+                     HWY_STATIC_DISPATCH(maximum_scalar)(),
+                     maximum_range,
+                     maximum_shortcut,
+                     maximum_bound};
   return op;
 }
 template <>
 const Op& op_for<detail::Negative>() {
   using namespace detail;
-  static const Op op{"negative", HWY_DYNAMIC_DISPATCH(negative_simd)(),
-                     HWY_STATIC_DISPATCH(negative_scalar)(), falling_range<Negative>};
+  static const Op op{"negative",
+                     HWY_DYNAMIC_DISPATCH(negative_simd)(),
+                     HWY_STATIC_DISPATCH(negative_scalar)(),
+                     falling_range<Negative>,
+                     nullptr,
+                     negative_bound};
   return op;
 }
 template <>
@@ -118,8 +136,12 @@ const Op& op_for<detail::Reciprocal>() {
 template <>
 const Op& op_for<detail::OneMinus>() {
   using namespace detail;
-  static const Op op{"one_minus", HWY_DYNAMIC_DISPATCH(one_minus_simd)(),
-                     HWY_STATIC_DISPATCH(one_minus_scalar)(), falling_range<OneMinus>};
+  static const Op op{"one_minus",
+                     HWY_DYNAMIC_DISPATCH(one_minus_simd)(),
+                     HWY_STATIC_DISPATCH(one_minus_scalar)(),
+                     falling_range<OneMinus>,
+                     nullptr,
+                     one_minus_bound};
   return op;
 }
 

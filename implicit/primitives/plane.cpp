@@ -66,6 +66,13 @@ Range linear_range(const Vec3& v, const Box& box) {
 static Range plane_range(const void* body, const Box& local, std::span<const Range>) {
   return linear_range(static_cast<const Plane*>(body)->normal, local);
 }
+/// Exact; the kernel and the frame round.
+static LinearBound plane_linear(const void* body, const LinearInput& in) {
+  const Vec3& n = static_cast<const Plane*>(body)->normal;
+  const Vec3 size = in.local.lo.cwiseAbs().cwiseMax(in.local.hi.cwiseAbs());
+  const double slack = n.cwiseAbs().dot(8.0 * std::numeric_limits<double>::epsilon() * size + 2.0 * in.slack);
+  return LinearBound{n.dot(in.centre), in.slope(n), {0.0, 0.0}}.widened(slack);
+}
 static Range half_space_range(const void* body, const Box& local, std::span<const Range>) {
   const Range f = linear_range(static_cast<const HalfSpace*>(body)->normal, local);
   return {std::max(0.0, f.lo), std::max(0.0, f.hi)};
@@ -79,8 +86,12 @@ static Range slab_range(const void* body, const Box& local, std::span<const Rang
 template <>
 const Op& op_for<detail::Plane>() {
   using namespace detail;
-  static const Op op{"plane", HWY_DYNAMIC_DISPATCH(plane_simd)(), HWY_STATIC_DISPATCH(plane_scalar)(),
-                     plane_range};
+  static const Op op{"plane",
+                     HWY_DYNAMIC_DISPATCH(plane_simd)(),
+                     HWY_STATIC_DISPATCH(plane_scalar)(),
+                     plane_range,
+                     nullptr,
+                     plane_linear};
   return op;
 }
 template <>

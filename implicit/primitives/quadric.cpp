@@ -15,10 +15,9 @@ namespace blendwright::detail::HWY_NAMESPACE {
 /// (1) as x (A11 x + A12 y + A13 z + A14) + y (A22 y + A23 z + A24) + z (A33 z + A34) + A44, with its
 /// derivatives taken by hand: they are linear forms of the same products.
 template <class T>
-HWY_INLINE T evaluate(const Quadric& b, const Inputs<T>& in) {
+HWY_INLINE T quadric_at(const Quadric& b, const Point<T>& p) {
   using L = LaneOf<T>;
   const auto& a = b.a;
-  const Point<T> p = in.local();
   const L x = value_of(p.x), y = value_of(p.y), z = value_of(p.z);
   const L lx = multiply_add(L(a[0]), x, multiply_add(L(a[3]), y, multiply_add(L(a[4]), z, L(a[6]))));
   const L ly = multiply_add(L(a[1]), y, multiply_add(L(a[5]), z, L(a[7])));
@@ -28,6 +27,11 @@ HWY_INLINE T evaluate(const Quadric& b, const Inputs<T>& in) {
                   multiply_add(L(a[2]), z, multiply_add(L(a[4]), x, multiply_add(L(a[5]), y, lz)))};
   const L h[6] = {2.0 * a[0], 2.0 * a[1], 2.0 * a[2], a[3], a[4], a[5]};
   return of_local(p, q, g, h);
+}
+
+template <class T>
+HWY_INLINE T evaluate(const Quadric& b, const Inputs<T>& in) {
+  return quadric_at(b, in.local());
 }
 
 /// (2) and the partial derivatives of a perturbation by q.
@@ -51,6 +55,10 @@ HWY_INLINE T evaluate(const AddedPerturbation& b, const Inputs<T>& in) {
   return in.arg(0) + perturbation_of(b.added, in.arg(1));
 }
 template <class T>
+HWY_INLINE T evaluate(const AddedQuadric& b, const Inputs<T>& in) {
+  return in.arg(0) + perturbation_of(b.added, quadric_at(b.q, in.local()));
+}
+template <class T>
 HWY_INLINE T evaluate(const Sum&, const Inputs<T>& in) {
   return in.arg(0) + in.arg(1);
 }
@@ -58,11 +66,13 @@ HWY_INLINE T evaluate(const Sum&, const Inputs<T>& in) {
 KernelSet quadric_simd() { return kernel_set<Quadric, Simd>(); }
 KernelSet perturbation_simd() { return kernel_set<Perturbation, Simd>(); }
 KernelSet added_perturbation_simd() { return kernel_set<AddedPerturbation, Simd>(); }
+KernelSet added_quadric_simd() { return kernel_set<AddedQuadric, Simd>(); }
 KernelSet sum_simd() { return kernel_set<Sum, Simd>(); }
 #if HWY_ONCE
 KernelSet quadric_scalar() { return kernel_set<Quadric, double>(); }
 KernelSet perturbation_scalar() { return kernel_set<Perturbation, double>(); }
 KernelSet added_perturbation_scalar() { return kernel_set<AddedPerturbation, double>(); }
+KernelSet added_quadric_scalar() { return kernel_set<AddedQuadric, double>(); }
 KernelSet sum_scalar() { return kernel_set<Sum, double>(); }
 #endif
 
@@ -70,11 +80,15 @@ KernelSet sum_scalar() { return kernel_set<Sum, double>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "implicit/eval/linear_rules.hpp"
+#include "implicit/primitives/quadric_linear.hpp"
+
 namespace blendwright {
 namespace detail {
 HWY_EXPORT(quadric_simd);
 HWY_EXPORT(perturbation_simd);
 HWY_EXPORT(added_perturbation_simd);
+HWY_EXPORT(added_quadric_simd);
 HWY_EXPORT(sum_simd);
 
 static Range quadric_op_range(const void* body, const Box& local, std::span<const Range>) {
@@ -106,6 +120,16 @@ static Shortcut added_perturbation_shortcut(const void* body, const Box&, std::s
   return outside ? Shortcut::to_argument(0) : Shortcut{};
 }
 
+static Range added_quadric_range(const void* body, const Box& local, std::span<const Range> args) {
+  const auto& b = *static_cast<const AddedQuadric*>(body);
+  return sum_of(args[0], range_of(b.added, quadric_range(b.q.a, local)));
+}
+static Shortcut added_quadric_shortcut(const void* body, const Box& local, std::span<const Range>) {
+  const auto& b = *static_cast<const AddedQuadric*>(body);
+  const bool outside = quadric_range(b.q.a, local).hi + b.added.free_term <= 0.0;
+  return outside ? Shortcut::to_argument(0) : Shortcut{};
+}
+
 static Range sum_range(const void*, const Box&, std::span<const Range> args) {
   return sum_of(args[0], args[1]);
 }
@@ -119,30 +143,56 @@ static Shortcut sum_shortcut(const void*, const Box&, std::span<const Range> arg
 template <>
 const Op& op_for<detail::Quadric>() {
   using namespace detail;
-  static const Op op{"quadric", HWY_DYNAMIC_DISPATCH(quadric_simd)(), HWY_STATIC_DISPATCH(quadric_scalar)(),
-                     quadric_op_range};
+  static const Op op{"quadric",
+                     HWY_DYNAMIC_DISPATCH(quadric_simd)(),
+                     HWY_STATIC_DISPATCH(quadric_scalar)(),
+                     quadric_op_range,
+                     nullptr,
+                     quadric_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::Perturbation>() {
   using namespace detail;
-  static const Op op{"perturbation", HWY_DYNAMIC_DISPATCH(perturbation_simd)(),
-                     HWY_STATIC_DISPATCH(perturbation_scalar)(), perturbation_range, perturbation_shortcut};
+  static const Op op{"perturbation",
+                     HWY_DYNAMIC_DISPATCH(perturbation_simd)(),
+                     HWY_STATIC_DISPATCH(perturbation_scalar)(),
+                     perturbation_range,
+                     perturbation_shortcut,
+                     perturbation_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::AddedPerturbation>() {
   using namespace detail;
-  static const Op op{"added_perturbation", HWY_DYNAMIC_DISPATCH(added_perturbation_simd)(),
-                     HWY_STATIC_DISPATCH(added_perturbation_scalar)(), added_perturbation_range,
-                     added_perturbation_shortcut};
+  static const Op op{"added_perturbation",
+                     HWY_DYNAMIC_DISPATCH(added_perturbation_simd)(),
+                     HWY_STATIC_DISPATCH(added_perturbation_scalar)(),
+                     added_perturbation_range,
+                     added_perturbation_shortcut,
+                     added_perturbation_linear};
+  return op;
+}
+template <>
+const Op& op_for<detail::AddedQuadric>() {
+  using namespace detail;
+  static const Op op{"added_quadric",
+                     HWY_DYNAMIC_DISPATCH(added_quadric_simd)(),
+                     HWY_STATIC_DISPATCH(added_quadric_scalar)(),
+                     added_quadric_range,
+                     added_quadric_shortcut,
+                     added_quadric_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::Sum>() {
   using namespace detail;
-  static const Op op{"sum", HWY_DYNAMIC_DISPATCH(sum_simd)(), HWY_STATIC_DISPATCH(sum_scalar)(), sum_range,
-                     sum_shortcut};
+  static const Op op{"sum",
+                     HWY_DYNAMIC_DISPATCH(sum_simd)(),
+                     HWY_STATIC_DISPATCH(sum_scalar)(),
+                     sum_range,
+                     sum_shortcut,
+                     added_bound};
   return op;
 }
 

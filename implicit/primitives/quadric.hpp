@@ -28,6 +28,11 @@ struct Perturbation {
 struct AddedPerturbation {
   Perturbation added;
 };
+/// One term of (3) with a quadric q, in local coordinates: its argument is the sum so far.
+struct AddedQuadric {
+  Quadric q;
+  Perturbation added;
+};
 /// The sum of its two arguments.
 struct Sum {};
 
@@ -68,6 +73,8 @@ template <>
 const Op& op_for<detail::Perturbation>();
 template <>
 const Op& op_for<detail::AddedPerturbation>();
+template <>
+const Op& op_for<detail::AddedQuadric>();
 template <>
 const Op& op_for<detail::Sum>();
 }  // namespace blendwright

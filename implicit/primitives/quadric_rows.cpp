@@ -20,7 +20,7 @@ Node quadric_node(const QuadricCoefficients& a) {
   node.level = Level::function;
   node.emit = emit_body(Quadric{a});
   node.region = [a](double value) { return quadric_region(a, value); };
-  node.quadric = std::make_shared<const QuadricCoefficients>(a);
+  node.quadric = std::make_shared<const NodeQuadric>(NodeQuadric{a, {}});
   return node;
 }
 
@@ -60,7 +60,7 @@ Node make_ellipsoid_quadric(NodeInputs& in) {
 bool is_function(NodeInputs& in, std::string_view key, const Node& node, int index = -1) {
   if (node.level == Level::function) return true;
   in.problem(key, scene_error::level_mismatch,
-             "is of level " + std::string(name(node.level)) + ", must be of level " +
+             "is of " + std::string(name(node.level)) + ", must be of " +
                  std::string(name(Level::function)) + "; convert it",
              index);
   return false;
@@ -72,7 +72,7 @@ double argument_at(const Perturbation& b, double value) {
 }
 
 void warn_of_support(NodeInputs& in, const Node& q, double free_term) {
-  const std::optional<QuadricTop> top = q.quadric ? top_of(*q.quadric) : std::nullopt;
+  const std::optional<QuadricTop> top = q.quadric ? top_of(q.quadric->coefficients) : std::nullopt;
   if (top && !(top->value + free_term > 0.0))
     in.warning("of", "is " + number_text(top->value, 4) +
                          " at most, which with the free term is not > 0: the support is empty, and the "
@@ -95,6 +95,7 @@ Node make_perturbation(NodeInputs& in) {
   Node node;
   node.level = Level::function;
   node.weight = b.weight;
+  node.perturbs = std::make_shared<const NodePerturbation>(NodePerturbation{of, b.power, b.free_term});
   const auto body = std::make_shared<const Perturbation>(b);
   node.emit = [of, body](TapeBuilder& tape, const Frame& frame) {
     return tape.add(body, Frame(), {of->emit(tape, frame)});
@@ -126,6 +127,29 @@ std::optional<Box> freeform_region(const Node* base, const Nodes& bumps, double 
   return all;
 }
 
+/// Adds the steps that add a bump to the sum so far.
+using Adding = std::function<StepIndex(TapeBuilder&, const Frame&, StepIndex)>;
+
+/// One step for the perturbation by a quadric, which is what freeforms are made of; else two or three.
+Adding adding_of(const std::shared_ptr<const Node>& bump) {
+  if (!bump->perturbs)
+    return
+        [bump, sum = std::make_shared<const Sum>()](TapeBuilder& tape, const Frame& frame, StepIndex total) {
+          return tape.add(sum, Frame(), {total, bump->emit(tape, frame)});
+        };
+  const std::shared_ptr<const Node> q = bump->perturbs->q;
+  const Perturbation p{bump->weight, bump->perturbs->power, bump->perturbs->free_term};
+  if (!q->quadric)
+    return [q, body = std::make_shared<const AddedPerturbation>(AddedPerturbation{p})](
+               TapeBuilder& tape, const Frame& frame, StepIndex total) {
+      return tape.add(body, Frame(), {total, q->emit(tape, frame)});
+    };
+  return [body = std::make_shared<const AddedQuadric>(AddedQuadric{{q->quadric->coefficients}, p}),
+          inner = q->quadric->frame](TapeBuilder& tape, const Frame& frame, StepIndex total) {
+    return tape.add(body, inner.after(frame), {total});
+  };
+}
+
 bool check_parts(NodeInputs& in, const Node* base, const Nodes& bumps) {
   bool good = true;
   if (base) good = is_function(in, "base", *base);
@@ -148,15 +172,12 @@ Node make_freeform(NodeInputs& in) {
   if (!check_parts(in, base.get(), bumps)) return {};
   Node node;
   node.level = Level::function;
-  const auto sum = std::make_shared<const Sum>();
-  node.emit = [base, bumps, sum](TapeBuilder& tape, const Frame& frame) {
-    std::optional<StepIndex> total;
-    if (base) total = base->emit(tape, frame);
-    for (const auto& bump : bumps) {
-      const StepIndex step = bump->emit(tape, frame);
-      total = total ? tape.add(sum, Frame(), {*total, step}) : step;
-    }
-    return *total;
+  std::vector<Adding> adding;
+  for (const auto& bump : bumps) adding.push_back(adding_of(bump));
+  node.emit = [base, bumps, adding](TapeBuilder& tape, const Frame& frame) {
+    StepIndex total = base ? base->emit(tape, frame) : bumps.front()->emit(tape, frame);
+    for (std::size_t i = base ? 0 : 1; i < adding.size(); ++i) total = adding[i](tape, frame, total);
+    return total;
   };
   node.region = [base, bumps](double value) { return freeform_region(base.get(), bumps, value); };
   return node;

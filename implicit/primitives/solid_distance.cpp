@@ -77,6 +77,7 @@ KernelSet box_distance_scalar() { return kernel_set<BoxDistance, double>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "implicit/primitives/solid_linear.hpp"
 #include "implicit/primitives/solid_ranges.hpp"
 
 namespace blendwright {
@@ -107,22 +108,34 @@ static Range torus_distance_range(const void* body, const Box& local, std::span<
 template <>
 const Op& op_for<detail::SphereDistance>() {
   using namespace detail;
-  static const Op op{"sphere_distance", HWY_DYNAMIC_DISPATCH(sphere_distance_simd)(),
-                     HWY_STATIC_DISPATCH(sphere_distance_scalar)(), sphere_distance_range};
+  static const Op op{"sphere_distance",
+                     HWY_DYNAMIC_DISPATCH(sphere_distance_simd)(),
+                     HWY_STATIC_DISPATCH(sphere_distance_scalar)(),
+                     sphere_distance_range,
+                     nullptr,
+                     sphere_distance_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::TorusDistance>() {
   using namespace detail;
-  static const Op op{"torus_distance", HWY_DYNAMIC_DISPATCH(torus_distance_simd)(),
-                     HWY_STATIC_DISPATCH(torus_distance_scalar)(), torus_distance_range};
+  static const Op op{"torus_distance",
+                     HWY_DYNAMIC_DISPATCH(torus_distance_simd)(),
+                     HWY_STATIC_DISPATCH(torus_distance_scalar)(),
+                     torus_distance_range,
+                     nullptr,
+                     torus_distance_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::BoxDistance>() {
   using namespace detail;
-  static const Op op{"box_distance", HWY_DYNAMIC_DISPATCH(box_distance_simd)(),
-                     HWY_STATIC_DISPATCH(box_distance_scalar)(), box_distance_range};
+  static const Op op{"box_distance",
+                     HWY_DYNAMIC_DISPATCH(box_distance_simd)(),
+                     HWY_STATIC_DISPATCH(box_distance_scalar)(),
+                     box_distance_range,
+                     nullptr,
+                     box_distance_linear};
   return op;
 }
 

@@ -133,6 +133,7 @@ KernelSet ellipsoid_distance_scalar() { return kernel_set<EllipsoidDistance, dou
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "implicit/primitives/solid_linear.hpp"
 #include "implicit/primitives/solid_ranges.hpp"
 
 namespace blendwright {
@@ -154,8 +155,12 @@ static Range ellipsoid_distance_range(const void* body, const Box& local, std::s
 template <>
 const Op& op_for<detail::EllipsoidDistance>() {
   using namespace detail;
-  static const Op op{"ellipsoid_distance", HWY_DYNAMIC_DISPATCH(ellipsoid_distance_simd)(),
-                     HWY_STATIC_DISPATCH(ellipsoid_distance_scalar)(), ellipsoid_distance_range};
+  static const Op op{"ellipsoid_distance",
+                     HWY_DYNAMIC_DISPATCH(ellipsoid_distance_simd)(),
+                     HWY_STATIC_DISPATCH(ellipsoid_distance_scalar)(),
+                     ellipsoid_distance_range,
+                     nullptr,
+                     ellipsoid_distance_linear};
   return op;
 }
 

@@ -47,9 +47,15 @@ HWY_EXPORT(level_logarithm_simd);
 // Both rise with their argument: the subtraction is rounded once, alike everywhere, and the error of a
 // logarithm is relative to its own value, also near x = 1.
 static Op level_shift_op() {
-  return {"level_shift", HWY_DYNAMIC_DISPATCH(level_shift_simd)(), HWY_STATIC_DISPATCH(level_shift_scalar)(),
+  return {"level_shift",
+          HWY_DYNAMIC_DISPATCH(level_shift_simd)(),
+          HWY_STATIC_DISPATCH(level_shift_scalar)(),
           [](const void* body, const Box&, std::span<const Range> args) {
             return range_by_arguments(op_for<LevelShift>(), body, args, {true});
+          },
+          nullptr,
+          [](const void*, const LinearInput& in) {
+            return in.args[0] + constant_bound({-1.0, -1.0});
           }};
 }
 static Op level_logarithm_op() {

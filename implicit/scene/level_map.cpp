@@ -40,6 +40,8 @@ KernelSet level_exponential_scalar() { return kernel_set<LevelExponential, doubl
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "implicit/eval/linear_rules.hpp"
+
 namespace blendwright {
 namespace detail {
 HWY_EXPORT(level_map_simd);
@@ -56,20 +58,44 @@ static Range level_exponential_range(const void* body, const Box&, std::span<con
   return range_by_arguments(op_for<LevelExponential>(), body, args,
                             {static_cast<const LevelExponential*>(body)->factor < 0.0});
 }
+
+static LinearBound level_map_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const LevelMap*>(body);
+  return b.factor * in.args[0] + constant_bound({b.shift, b.shift});
+}
+/// The exponential is convex.
+static LinearBound level_exponential_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const LevelExponential*>(body);
+  const LinearBound exponent = -1.0 * (b.factor * in.args[0] + constant_bound({b.shift, b.shift}));
+  const double lo = -b.factor * in.ranges[0].lo - b.shift, hi = -b.factor * in.ranges[0].hi - b.shift;
+  const Range range{std::min(lo, hi), std::max(lo, hi)};
+  if (range.lo < -700.0 || range.hi > 300.0)
+    return constant_bound(level_exponential_range(body, in.local, in.ranges));
+  const double at = std::exp(exponent.value), last = std::exp(range.hi);
+  return of_convex(exponent, range, {at, at, std::exp(range.lo), last}, 4.0 * range_slack * last);
+}
 }  // namespace detail
 
 template <>
 const Op& op_for<detail::LevelMap>() {
   using namespace detail;
-  static const Op op{"level_map", HWY_DYNAMIC_DISPATCH(level_map_simd)(),
-                     HWY_STATIC_DISPATCH(level_map_scalar)(), level_map_range};
+  static const Op op{"level_map",
+                     HWY_DYNAMIC_DISPATCH(level_map_simd)(),
+                     HWY_STATIC_DISPATCH(level_map_scalar)(),
+                     level_map_range,
+                     nullptr,
+                     level_map_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::LevelExponential>() {
   using namespace detail;
-  static const Op op{"level_exponential", HWY_DYNAMIC_DISPATCH(level_exponential_simd)(),
-                     HWY_STATIC_DISPATCH(level_exponential_scalar)(), level_exponential_range};
+  static const Op op{"level_exponential",
+                     HWY_DYNAMIC_DISPATCH(level_exponential_simd)(),
+                     HWY_STATIC_DISPATCH(level_exponential_scalar)(),
+                     level_exponential_range,
+                     nullptr,
+                     level_exponential_linear};
   return op;
 }
 

@@ -15,6 +15,22 @@
 
 namespace blendwright {
 
+struct Node;
+
+/// The value is Q(frame.local(X)), A11 A22 A33 A12 A13 A23 A14 A24 A34 A44 the coefficients of Q. The frame
+/// keeps a local origin near the object: in coordinates far from it digits are lost.
+struct NodeQuadric {
+  std::array<double, 10> coefficients{};
+  Frame frame{};
+};
+
+/// weight max(q + free_term, 0)^power.
+struct NodePerturbation {
+  std::shared_ptr<const Node> q;
+  int power;
+  double free_term;
+};
+
 struct Node {
   Level level = Level::one;
   bool distance = false;       ///< level one and never negative: what potentials and distance operations take
@@ -24,9 +40,9 @@ struct Node {
   bool profile = false;        ///< a plane gauge g(u, v): only for sections
   bool exact_distance = false;  ///< level function: the distance to the surface, positive inside, everywhere
   bool any_value = false;       ///< level half, but values may leave [0, 1]: no argument of powers
-  double weight = 0.0;          ///< of perturbation functions w max(q, 0)^k: w; 0: it is none
-  /// Of quadrics, level function: A11 A22 A33 A12 A13 A23 A14 A24 A34 A44 in the node's own coordinates.
-  std::shared_ptr<const std::array<double, 10>> quadric{};
+  double weight = 0.0;          ///< of perturbations, also placed ones; 0: it is none
+  std::shared_ptr<const NodeQuadric> quadric{};        ///< of quadrics, level function, also placed ones
+  std::shared_ptr<const NodePerturbation> perturbs{};  ///< of perturbations that are not placed
   /// Adds the node's steps, seen from the coordinates that `frame` leads to.
   std::function<StepIndex(TapeBuilder&, const Frame&)> emit;
   /// Encloses every point, in the node's own coordinates, whose value lies on the solid's side of `value` (<=

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "implicit/primitives/quadric.hpp"
 #include "implicit/scene/node.hpp"
 
 namespace blendwright {
@@ -28,8 +27,8 @@ Node placed(const std::shared_ptr<const Node>& of, const Frame& frame) {
   node.weight = of->weight;
   node.exact_distance = of->exact_distance && keeps_lengths(frame.matrix);
   if (of->quadric)
-    node.quadric =
-        std::make_shared<const detail::QuadricCoefficients>(detail::seen_through(*of->quadric, frame));
+    node.quadric = std::make_shared<const NodeQuadric>(
+        NodeQuadric{of->quadric->coefficients, of->quadric->frame.after(frame)});
   node.origin = frame.matrix.inverse().transpose() * (of->origin - frame.offset);
   node.emit = [of, frame](TapeBuilder& tape, const Frame& outer) {
     return of->emit(tape, frame.after(outer));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/field/level.hpp"
+#include "kernel/field/linear_bound.hpp"
 #include "kernel/field/range.hpp"
 
 namespace blendwright {
@@ -54,6 +55,9 @@ class ScalarField {
     virtual void evaluate(Order order, PointArrays points, std::span<double> out) const = 0;
     /// Contains every value that evaluate() returns for a point of the box.
     [[nodiscard]] virtual Range range(const Box& box) const = 0;
+    /// The values over the box to first order; no wider than range(box), which it is when a model knows no
+    /// better.
+    [[nodiscard]] virtual LinearBound linear(const Box& box) const { return constant_bound(range(box)); }
     /// range(box), and an equal but cheaper model for points of the box (bit for bit the same values); null
     /// when there is none.
     struct Within {
@@ -82,6 +86,7 @@ class ScalarField {
   [[nodiscard]] FieldValues evaluate(Order order, std::span<const Vec3> points) const;
   [[nodiscard]] double value(const Vec3& point) const;
   [[nodiscard]] Range range(const Box& box) const { return model_->range(box); }
+  [[nodiscard]] LinearBound linear(const Box& box) const { return model_->linear(box); }
 
  private:
   std::shared_ptr<const Model> model_;

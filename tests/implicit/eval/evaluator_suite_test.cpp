@@ -70,6 +70,14 @@ TEST(EvaluatorSuite, ReportsARangeThatIsTooSmall) {
   };
   EXPECT_THAT(faults_of(op_for<Ball>(), bad), Contains(StartsWith("range misses a value")));
 }
+TEST(EvaluatorSuite, ReportsALinearBoundThatIsTooNarrow) {
+  Op bad = op_for<Window>();
+  bad.linear = [](const void* body, const LinearInput& in) {
+    const Range r = op_for<Window>().range(body, in.local, in.ranges);
+    return constant_bound({r.lo, r.lo + 0.9 * (r.hi - r.lo)});
+  };
+  EXPECT_THAT(faults_of(op_for<Ball>(), bad), Contains(StartsWith("linear bound misses a value")));
+}
 TEST(EvaluatorSuite, ReportsAShortcutThatIsTakenTooEarly) {
   Op bad = op_for<Window>();
   bad.shortcut = [](const void*, const Box&, std::span<const Range> args) {

@@ -222,7 +222,27 @@ inline void check_differences(const ScalarField::Model& model, const std::vector
                std::to_string(useless) + " of " + std::to_string(all) + " have two step sizes that disagree");
 }
 
-/// Ranges hold values; the shortened model has the same bits.
+/// The linear bound holds values: f - value - slope.t lies in its rest, t being the place in the box.
+inline void check_linear(const ScalarField::Model& model, const Box& box, const std::vector<Vec3>& points,
+                         const Results& values, Faults& faults) {
+  const LinearBound bound = model.linear(box);
+  const Vec3 c = box.centre(), h = 0.5 * box.size();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double line = bound.value;
+    for (int k = 0; k < 3; ++k)
+      if (h[k] > 0.0) line += bound.slope[k] * ((points[i][k] - c[k]) / h[k]);
+    const double v = values.at(i, 0);
+    // Four roundings of this sum.
+    const double slack =
+        std::isinf(v) ? 0.0 : 1e-15 * (std::abs(v) + std::abs(bound.value) + bound.slope.lpNorm<1>());
+    if (!Range{bound.rest.lo - slack, bound.rest.hi + slack}.contains(v - line))
+      faults.add("linear bound misses a value", std::to_string(v) + " - " + std::to_string(line) + " in" +
+                                                    text(bound.rest.lo, bound.rest.hi) + " " +
+                                                    text(points[i]) + " in " + text(box));
+  }
+}
+
+/// Ranges and linear bounds hold values; the shortened model has the same bits.
 inline void check_box(const ScalarField::Model& model, const Box& box, const std::vector<Vec3>& points,
                       int depth, Faults& faults) {
   const Range range = model.range(box);
@@ -231,6 +251,7 @@ inline void check_box(const ScalarField::Model& model, const Box& box, const std
     if (!range.contains(values.at(i, 0)))
       faults.add("range misses a value", std::to_string(values.at(i, 0)) + " in" + text(range.lo, range.hi) +
                                              " " + text(points[i]) + " in " + text(box));
+  check_linear(model, box, points, values, faults);
   const auto within = model.within(box);
   if (!(within.range == range)) faults.add("two ranges", text(within.range.lo, within.range.hi));
   if (!within.model) return;

@@ -1,0 +1,32 @@
+#pragma once
+// What walks over a tape share.
+#include <vector>
+
+#include "implicit/eval/tape.hpp"
+
+namespace blendwright {
+
+/// What a walk over a tape finds out about a box; kept per thread, so that a walk allocates nothing.
+struct Tape::Walk {
+  std::vector<Box> boxes;           ///< of the frames
+  std::vector<Range> ranges;        ///< of the steps
+  std::vector<StepIndex> stand_in;  ///< the step that it equals on the box; itself: none
+  std::vector<bool> constant;       ///< whether it is a constant on the box, though its operation is not
+  std::vector<Range> args;
+  bool shorter = false;
+
+  std::vector<LinearBound> linear;  ///< of the steps
+  std::vector<LinearBound> linear_args;
+
+  std::vector<StepIndex> place;  ///< in the shortened tape
+  std::vector<std::int32_t> frame_place;
+  std::vector<StepIndex> last_use;
+  std::vector<std::uint32_t> free;
+
+  static Walk& mine() {
+    thread_local Walk walk;
+    return walk;
+  }
+};
+
+}  // namespace blendwright
