@@ -35,8 +35,8 @@ bool check_operands(NodeInputs& in, std::initializer_list<std::string_view> keys
     if (!node->distance)
       problem(key, scene_error::level_mismatch,
               (node->level == Level::one ? std::string("is signed")
-                                         : "is of level " + std::string(name(node->level))) +
-                  ", must be a distance (level one, never negative)");
+                                         : "is of " + std::string(name(node->level))) +
+                  ", must be a distance (one level, never negative)");
     else if (!node->ray_linear)
       problem(key, scene_error::not_ray_linear, "is not ray-linear, must be");
     else if (first->ray_linear && !same_origin(*first, *node))

@@ -10,9 +10,9 @@ namespace {
 using Nodes = std::vector<std::shared_ptr<const Node>>;
 
 std::string what_it_is(const Node& node) {
-  if (node.level == Level::one && !node.distance) return "is of level one, but signed: not a distance";
+  if (node.level == Level::one && !node.distance) return "is of one level, but signed: not a distance";
   if (node.any_value) return "is of half level, but its values may leave [0, 1]";
-  return "is of level " + std::string(name(node.level));
+  return "is of " + std::string(name(node.level));
 }
 
 /// Whether an operator with a level of its own can take the values: powers need signs and sizes to be right.
@@ -28,7 +28,7 @@ void check_levels(NodeInputs& in, const Operator& row, const Nodes& of) {
     if (of[i]->level == level && usable) continue;
     const std::string required = row.level ? "" : ", as the first operand is";
     in.problem("of", scene_error::level_mismatch,
-               what_it_is(*of[i]) + ", must be of level " + std::string(name(level)) +
+               what_it_is(*of[i]) + ", must be of " + std::string(name(level)) +
                    (row.level == Level::one ? ", never negative" : required),
                static_cast<int>(i));
   }

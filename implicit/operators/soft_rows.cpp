@@ -31,7 +31,7 @@ Node make_complement(NodeInputs& in) {
     case Level::one:
       if (!of->distance)
         in.problem("of", scene_error::level_mismatch,
-                   "is of level one, but signed: 1/x is a complement only where x is never negative");
+                   "is of one level, but signed: 1/x is a complement only where x is never negative");
       return complement_of<Reciprocal>(of);
     case Level::half:
       return complement_of<OneMinus>(of);
