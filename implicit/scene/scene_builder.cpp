@@ -12,13 +12,10 @@ std::string count_text(std::size_t n) { return std::to_string(n); }
 
 std::string unknown_kind(const std::string& kind) {
   std::vector<std::string> known;
-  std::string list;
-  for (const NodeKind* row : node_kinds()) {
-    known.emplace_back(row->name);
-    list += (list.empty() ? "" : ", ") + known.back();
-  }
+  for (const NodeKind* row : node_kinds()) known.emplace_back(row->name);
   const std::string near = suggestion(kind, known);
-  return "is " + quoted(kind) + ", must be a kind of node" + (near.empty() ? ": one of " + list : near);
+  return "is " + quoted(kind) + ", must be a kind of node" +
+         (near.empty() ? ", as \"list nodes\" prints them" : near);
 }
 
 }  // namespace

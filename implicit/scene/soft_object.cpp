@@ -215,7 +215,7 @@ Node make_soft_object(NodeInputs& in) {
   const std::shared_ptr<const Node> distance = in.node("distance"), contour = in.contour("w1");
   if (distance->level != Level::one) {
     in.problem("distance", scene_error::level_mismatch,
-               "is of level " + std::string(name(distance->level)) + ", must be a distance (level one)");
+               "is of " + std::string(name(distance->level)) + ", must be a distance (level one)");
     return {};
   }
   if (!distance->distance) {

@@ -16,7 +16,7 @@ Node make_zero_level(NodeInputs& in) {
   const Form form{in.word("form")};
   if (of->level != Level::one) {
     in.problem("of", scene_error::level_mismatch,
-               "is of level " + std::string(name(of->level)) + ", must be of level one (a distance)");
+               "is of " + std::string(name(of->level)) + ", must be of level one (a distance)");
     return {};
   }
   Node node;

@@ -140,7 +140,7 @@ std::vector<Broken> broken_structure() {
       value("distance-as-profile", "column", "profile", ref("ball"), "", "a lp_metric, must be a profile"),
       other("unknown-kind", "/nodes/bar/kind", "did you mean \"superquadric\"?",
             [](SceneSpec& s) { find(s, "bar")->kind = "superquadrik"; }),
-      other("unlike-any-kind", "/nodes/bar/kind", "must be a kind of node: one of lp_profile, rose",
+      other("unlike-any-kind", "/nodes/bar/kind", "must be a kind of node, as \"list nodes\"",
             [](SceneSpec& s) { find(s, "bar")->kind = "teapot of Utah"; }),
       other("duplicate-name", "/nodes/ball", "has the name \"ball\" of the node at /nodes/ball",
             [](SceneSpec& s) { s.nodes.push_back(ball("ball", 2.0)); }),
