@@ -44,4 +44,12 @@ Frame Frame::after(const Frame& outer) const {
   return f;
 }
 
+Frame Frame::scaled(const Vec3& factors) const {
+  Frame f;
+  f.matrix = matrix * factors.asDiagonal();
+  f.offset = offset.cwiseProduct(factors);
+  f.identity = identity && factors == Vec3::Ones();
+  return f;
+}
+
 }  // namespace blendwright

@@ -65,7 +65,8 @@ struct Point {
 template <class T>
 class Inputs {
  public:
-  HWY_INLINE Inputs(const KernelInput& in, std::size_t at) : in_(in), at_(at) {}
+  HWY_INLINE Inputs(const KernelInput& in, const double* frame, std::size_t at)
+      : in_(in), frame_(frame), at_(at) {}
   [[nodiscard]] HWY_INLINE Point<T> local() const {
     using L = LaneOf<T>;
     const L x[3] = {LaneIo<L>::load(in_.x + at_), LaneIo<L>::load(in_.y + at_), LaneIo<L>::load(in_.z + at_)};
@@ -75,10 +76,10 @@ class Inputs {
         y[j] = constant<T>(x[j]);
         if constexpr (NumberTraits<T>::order > 0) y[j].d[j] = L(1.0);
       } else {
-        const double* column = in_.frame->matrix.data() + 3 * j;  // Eigen keeps columns together
+        const double* column = frame_ + 4 * j;
         const L v = multiply_add(
             x[0], L(column[0]),
-            multiply_add(x[1], L(column[1]), multiply_add(x[2], L(column[2]), L(in_.frame->offset[j]))));
+            multiply_add(x[1], L(column[1]), multiply_add(x[2], L(column[2]), L(column[3]))));
         y[j] = constant<T>(v);
         if constexpr (NumberTraits<T>::order > 0)
           for (int i = 0; i < 3; ++i) y[j].d[i] = L(column[i]);
@@ -91,14 +92,24 @@ class Inputs {
 
  private:
   const KernelInput& in_;
+  const double* frame_;  ///< three columns of four numbers: y_j = x * column + its last number
   std::size_t at_;
 };
 
 template <class T, class Body>
 void run_kernel(const void* body, const KernelInput& in, double* out) {
   const Body& b = *static_cast<const Body*>(body);
+  // Copies, so that the compiler sees that `out` does not change them and reads them once.
+  const KernelInput mine = in;
+  double frame[12] = {};
+  if (in.frame != nullptr)
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) frame[4 * j + i] = in.frame->matrix(i, j);
+      frame[4 * j + 3] = in.frame->offset[j];
+    }
   const std::size_t step = LaneIo<LaneOf<T>>::width();
-  for (std::size_t i = 0; i < in.count; i += step) store_number<T>(evaluate(b, Inputs<T>(in, i)), out + i);
+  for (std::size_t i = 0; i < mine.count; i += step)
+    store_number<T>(evaluate(b, Inputs<T>(mine, frame, i)), out + i);
 }
 
 /// The kernels of a body for lanes of type L (double or Simd).

@@ -4,6 +4,7 @@
 // header; everything here is instantiated from that.
 #include <cstddef>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -26,6 +27,8 @@ struct Frame {
   [[nodiscard]] Box scene(const Box& y) const;
   /// inner.after(outer): first outer, then inner, as one.
   [[nodiscard]] Frame after(const Frame& outer) const;
+  /// The same with local coordinates multiplied by positive factors.
+  [[nodiscard]] Frame scaled(const Vec3& factors) const;
   bool operator==(const Frame&) const = default;
 };
 
@@ -75,6 +78,14 @@ struct LinearInput {
   }
 };
 
+struct Op;
+/// One operation in place of two.
+struct Merged {
+  const Op* op = nullptr;  ///< null: there is none
+  std::shared_ptr<const void> body;
+  Vec3 scale = Vec3::Ones();  ///< factors of the inner operation's local coordinates
+};
+
 struct Op {
   std::string_view name;
   KernelSet simd;    ///< for the best instruction set of this machine
@@ -86,6 +97,9 @@ struct Op {
   Shortcut (*shortcut)(const void* body, const Box& local, std::span<const Range> args) = nullptr;
   /// Contains the same values as range(), to first order. Null: the range.
   LinearBound (*linear)(const void* body, const LinearInput& in) = nullptr;
+  /// The operation that does both this one (which has no coordinates) and, for its argument `which`, `inner`,
+  /// a primitive: of the primitive's coordinates and the remaining arguments. Null: never.
+  Merged (*merge)(const void* body, std::size_t which, const Op& inner, const void* inner_body) = nullptr;
 };
 
 /// The operation of a body type; each body's .cpp specialises it.

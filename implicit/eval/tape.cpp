@@ -75,11 +75,10 @@ struct Batch {
   const double* run(const Tape::Step& step, const Frame* frame, std::span<const StepIndex> args,
                     std::span<const Tape::Step> steps, Kernel kernel, std::size_t stride,
                     std::vector<const double*>& places) const {
-    places.resize(args.size());
+    if (places.size() < args.size()) places.resize(args.size());
     for (std::size_t k = 0; k < args.size(); ++k) places[k] = slots + steps[args[k]].slot * stride;
     double* to = slots + step.slot * stride;
-    kernel(step.body ? step.body : &step.constant, {x, y, z, frame, places.data(), places.size(), padded},
-           to);
+    kernel(step.body ? step.body : &step.constant, {x, y, z, frame, places.data(), args.size(), padded}, to);
     return to;
   }
 };
@@ -96,9 +95,8 @@ void Tape::run(Order order, PointArrays points, KernelSet Op::*kernels, std::siz
     batch.load(points, first, lanes);
     const double* result = nullptr;
     for (const Step& step : steps_)
-      result = batch.run(step, step.frame < 0 ? nullptr : frames_[static_cast<std::size_t>(step.frame)],
-                         std::span(args_).subspan(step.first_arg, step.arg_count), steps_,
-                         (step.op->*kernels).run[o], stride, work.args());
+      result = batch.run(step, frame_of(step), args_of(step), steps_, (step.op->*kernels).run[o], stride,
+                         work.args());
     for (std::size_t c = 0; c < components(order); ++c)
       std::copy_n(result + c * batch_size, batch.count, out.data() + c * n + first);
   }
@@ -113,36 +111,62 @@ void Tape::evaluate_scalar(Order order, PointArrays points, std::span<double> ou
   run(order, points, &Op::scalar, 1, out);
 }
 
+namespace {
+
+/// The nearest member of each point of a batch so far.
+struct Nearest {
+  double distance[batch_size];
+  std::span<std::uint32_t> index;
+
+  explicit Nearest(std::span<std::uint32_t> out) : index(out) {
+    std::fill_n(distance, out.size(), std::numeric_limits<double>::infinity());
+    std::fill(out.begin(), out.end(), 0u);
+  }
+  /// f: values and gradients of the member.
+  void take(const TapeMember& member, const double* f) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      const double gx = f[batch_size + i], gy = f[2 * batch_size + i], gz = f[3 * batch_size + i];
+      const double slope = std::sqrt(gx * gx + gy * gy + gz * gz);
+      const double d = slope > 0.0 ? std::abs(f[i] - surface_value(member.level)) / slope : infinity;
+      if (d < distance[i] || (d == distance[i] && d < infinity && member.index < index[i])) {
+        distance[i] = d;
+        index[i] = member.index;
+      }
+    }
+  }
+};
+
+}  // namespace
+
 void Tape::nearest_member(PointArrays points, std::span<std::uint32_t> out) const {
-  std::fill(out.begin(), out.end(), 0u);
-  if (members_.size() < 2 && (members_.empty() || members_.front().index == 0)) return;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (members_.empty() || (members_.size() == 1 && members_.front().at.index == 0)) {
+    std::fill(out.begin(), out.end(), 0u);
+    return;
+  }
   constexpr auto order = static_cast<std::size_t>(Order::gradient);
   const std::size_t stride = batch_size * components(Order::gradient);
+  StepIndex end = 0;  // of the steps that are members
+  for (const Member& m : members_)
+    if (!m.merged()) end = m.at.step + 1;
   Workspace& work = workspace();
-  Batch batch(work.numbers(Batch::size(slots_, Order::gradient)));
-  double nearest[batch_size];
+  Batch batch(work.numbers(Batch::size(slots_ + 1, Order::gradient)));
   for (std::size_t first = 0; first < points.size(); first += batch_size) {
     batch.load(points, first, widest);
-    std::fill_n(nearest, batch.count, infinity);
-    const auto here = out.subspan(first, batch.count);
-    std::size_t m = 0;
-    for (StepIndex s = 0; m < members_.size(); ++s) {
+    Nearest nearest(out.subspan(first, batch.count));
+    for (Member m : members_)
+      if (m.merged()) {
+        m.leaf.slot = static_cast<std::uint32_t>(slots_);
+        nearest.take(m.at, batch.run(m.leaf, frame_of(m.leaf), {}, steps_, m.leaf.op->simd.run[order], stride,
+                                     work.args()));
+      }
+    auto member = members_.begin();
+    for (StepIndex s = 0; s < end; ++s) {
       const Step& step = steps_[s];
-      const double* f =
-          batch.run(step, step.frame < 0 ? nullptr : frames_[static_cast<std::size_t>(step.frame)],
-                    std::span(args_).subspan(step.first_arg, step.arg_count), steps_,
-                    step.op->simd.run[order], stride, work.args());
-      for (; m < members_.size() && members_[m].step == s; ++m)
-        for (std::size_t i = 0; i < batch.count; ++i) {
-          const double gx = f[batch_size + i], gy = f[2 * batch_size + i], gz = f[3 * batch_size + i];
-          const double slope = std::sqrt(gx * gx + gy * gy + gz * gz);
-          const double d = slope > 0.0 ? std::abs(f[i] - surface_value(members_[m].level)) / slope : infinity;
-          if (d < nearest[i] || (d == nearest[i] && d < infinity && members_[m].index < here[i])) {
-            nearest[i] = d;
-            here[i] = members_[m].index;
-          }
-        }
+      const double* f = batch.run(step, frame_of(step), args_of(step), steps_, step.op->simd.run[order],
+                                  stride, work.args());
+      for (; member != members_.end() && member->at.step == s; ++member)
+        if (!member->merged()) nearest.take(member->at, f);
     }
   }
   work.tidy();

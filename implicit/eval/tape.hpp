@@ -60,16 +60,32 @@ class Tape final : public ScalarField::Model {
     std::vector<Frame> frames;
   };
 
+  /// A member's own value is that of `leaf`, a primitive that was merged into step `at.step`, or of that
+  /// step.
+  struct Member {
+    TapeMember at;
+    Step leaf{};
+    [[nodiscard]] bool merged() const { return leaf.op != nullptr; }
+  };
+
+  [[nodiscard]] const Frame* frame_of(const Step& step) const {
+    return step.frame < 0 ? nullptr : frames_[static_cast<std::size_t>(step.frame)];
+  }
+  [[nodiscard]] std::span<const StepIndex> args_of(const Step& step) const {
+    return std::span(args_).subspan(step.first_arg, step.arg_count);
+  }
+
   struct Walk;
   void run(Order order, PointArrays points, KernelSet Op::*kernels, std::size_t lanes,
            std::span<double> out) const;
   void bound(const Box& box, Walk& walk) const;
   [[nodiscard]] std::shared_ptr<const Tape> shortened(Walk& walk) const;
+  void keep_members(Walk& walk, Tape& shorter) const;
 
   std::vector<Step> steps_;  ///< arguments before users; the last step is the result
   std::vector<StepIndex> args_;
   std::vector<const Frame*> frames_;  ///< only those that its steps use
-  std::vector<TapeMember> members_;   ///< by step
+  std::vector<Member> members_;       ///< by step
   std::size_t slots_ = 0;
   std::shared_ptr<const Owned> owned_;
 };
@@ -94,8 +110,9 @@ class TapeBuilder {
   /// A step that is c everywhere.
   StepIndex constant(double c);
   void member(TapeMember member);
-  /// The tape whose value is that of `result`; steps and members that do not matter for it are left out. Its
-  /// arguments stand in the order that keeps the fewest results at a time (for trees: Sethi and Ullman 1970).
+  /// The tape whose value is that of `result`; steps and members that do not matter for it are left out.
+  /// Primitives with one user are merged into it where an operation for both exists. Arguments stand in the
+  /// order that keeps the fewest results at a time (for trees: Sethi and Ullman 1970).
   [[nodiscard]] std::shared_ptr<const Tape> finish(StepIndex result);
 
  private:

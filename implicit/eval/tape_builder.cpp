@@ -26,6 +26,40 @@ std::uint64_t bits(double x) {
 }
 std::uint64_t bits(const void* p) { return static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(p)); }
 
+/// Steps as they go on a tape: with builder numbering still, but merged.
+struct MergedSteps {
+  std::vector<Tape::Step> steps;  ///< by builder index
+  std::vector<StepIndex> args;
+  std::vector<Frame> frames;
+  std::vector<std::shared_ptr<const void>> bodies;
+  std::vector<StepIndex> into;  ///< the step that it was merged into, or none
+
+  [[nodiscard]] std::span<const StepIndex> args_of(StepIndex i) const {
+    return std::span(args).subspan(steps[i].first_arg, steps[i].arg_count);
+  }
+  bool merge(Tape::Step& step, StepIndex inner_index, std::size_t which) {
+    const Tape::Step& inner = steps[inner_index];
+    if (inner.arg_count > 0 || !inner.body) return false;
+    Merged both = step.op->merge(step.body, which, *inner.op, inner.body);
+    if (!both.op) return false;
+    const Frame frame = inner.frame < 0 ? Frame{} : frames[static_cast<std::size_t>(inner.frame)];
+    step.op = both.op;
+    step.body = both.body.get();
+    step.frame = inner.frame;
+    if (both.scale != Vec3::Ones()) {
+      step.frame = static_cast<std::int32_t>(frames.size());
+      frames.push_back(frame.scaled(both.scale));
+    }
+    bodies.push_back(std::move(both.body));
+    return true;
+  }
+  /// The last of a chain of mergers.
+  [[nodiscard]] StepIndex final_step(StepIndex i) const {
+    while (into[i] != none) i = into[i];
+    return i;
+  }
+};
+
 }  // namespace
 
 struct TapeBuilder::State {
@@ -49,6 +83,7 @@ struct TapeBuilder::State {
   }
   [[nodiscard]] std::vector<StepIndex> visiting_order() const;
   [[nodiscard]] std::vector<StepIndex> order_for(StepIndex result) const;
+  [[nodiscard]] MergedSteps merged(const std::vector<StepIndex>& order) const;
 };
 
 std::int32_t TapeBuilder::State::frame_index(const Frame& frame) {
@@ -145,37 +180,72 @@ StepIndex TapeBuilder::constant(double c) {
 
 void TapeBuilder::member(TapeMember member) { state_->members.push_back(member); }
 
+/// Merges what can be merged among the steps in `order`.
+MergedSteps TapeBuilder::State::merged(const std::vector<StepIndex>& order) const {
+  MergedSteps m{
+      std::vector<Tape::Step>(entries.size()), {}, frames, {}, std::vector<StepIndex>(entries.size(), none)};
+  std::vector<std::uint32_t> uses(entries.size(), 0);
+  for (const StepIndex i : order)
+    for (const StepIndex a : args_of(i)) ++uses[a];
+  std::vector<StepIndex> its_args;
+  for (const StepIndex i : order) {
+    Tape::Step step = entries[i].step;
+    if (entries[i].body) m.bodies.push_back(entries[i].body);
+    its_args.assign(args_of(i).begin(), args_of(i).end());
+    for (std::size_t which = step.op->merge ? its_args.size() : 0; which-- > 0;) {
+      const StepIndex a = its_args[which];
+      if (uses[a] != 1 || !m.merge(step, a, which)) continue;
+      m.into[a] = i;
+      its_args.erase(its_args.begin() + static_cast<std::ptrdiff_t>(which));
+      break;
+    }
+    step.first_arg = static_cast<std::uint32_t>(m.args.size());
+    step.arg_count = static_cast<std::uint32_t>(its_args.size());
+    m.args.insert(m.args.end(), its_args.begin(), its_args.end());
+    m.steps[i] = step;
+  }
+  return m;
+}
+
 std::shared_ptr<const Tape> TapeBuilder::finish(StepIndex result) {
   const State& s = *state_;
   if (result >= s.entries.size()) throw InputError("result", "is not a step of this tape");
   const std::vector<StepIndex> order = s.order_for(result);
+  MergedSteps merged = s.merged(order);
+  const auto owned = std::make_shared<Tape::Owned>(Tape::Owned{std::move(merged.bodies), merged.frames});
   const std::shared_ptr<Tape> tape(new Tape);
-  const auto owned = std::make_shared<Tape::Owned>();
-  owned->frames = s.frames;
+  std::vector<std::int32_t> frame_place(owned->frames.size(), -1);
+  const auto place_of_frame = [&](std::int32_t frame) {
+    if (frame < 0) return frame;
+    const auto f = static_cast<std::size_t>(frame);
+    if (frame_place[f] < 0) {
+      frame_place[f] = static_cast<std::int32_t>(tape->frames_.size());
+      tape->frames_.push_back(&owned->frames[f]);
+    }
+    return frame_place[f];
+  };
   std::vector<StepIndex> place(s.entries.size(), none);
-  std::vector<std::int32_t> frame_place(s.frames.size(), -1);
   for (const StepIndex i : order) {
+    if (merged.into[i] != none) continue;
     place[i] = static_cast<StepIndex>(tape->steps_.size());
-    Tape::Step step = s.entries[i].step;
+    Tape::Step step = merged.steps[i];
     step.first_arg = static_cast<std::uint32_t>(tape->args_.size());
-    for (const StepIndex a : s.args_of(i)) tape->args_.push_back(place[a]);
-    if (step.frame >= 0) {
-      const auto f = static_cast<std::size_t>(step.frame);
-      if (frame_place[f] < 0) {
-        frame_place[f] = static_cast<std::int32_t>(tape->frames_.size());
-        tape->frames_.push_back(&owned->frames[f]);
-      }
-      step.frame = frame_place[f];
-    }
+    for (const StepIndex a : merged.args_of(i)) tape->args_.push_back(place[a]);
+    step.frame = place_of_frame(step.frame);
     tape->steps_.push_back(step);
-    if (s.entries[i].body) owned->bodies.push_back(s.entries[i].body);
   }
-  for (TapeMember m : s.members)
-    if (m.step < place.size() && place[m.step] != none) {
-      m.step = place[m.step];
-      tape->members_.push_back(m);
+  for (const TapeMember& m : s.members) {
+    if (m.step >= place.size()) continue;
+    const StepIndex last = merged.final_step(m.step);
+    if (place[last] == none) continue;
+    Tape::Member member{{place[last], m.level, m.index}};
+    if (last != m.step) {
+      member.leaf = merged.steps[m.step];
+      member.leaf.frame = place_of_frame(member.leaf.frame);
     }
-  std::ranges::stable_sort(tape->members_, {}, &TapeMember::step);
+    tape->members_.push_back(member);
+  }
+  std::ranges::stable_sort(tape->members_, {}, [](const Tape::Member& m) { return m.at.step; });
   tape->owned_ = owned;
   std::vector<StepIndex> last_use;
   std::vector<std::uint32_t> free;

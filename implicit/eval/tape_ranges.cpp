@@ -1,5 +1,6 @@
 // Bounds of a tape over a box, and the tape that is left of it there.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,13 @@ namespace blendwright {
 namespace {
 
 constexpr StepIndex none = std::numeric_limits<StepIndex>::max();
+
+/// Values that rounding makes equal, as 1 - f for tiny f, are not those of a constant: derivatives are left.
+Range not_constant(Range r) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!r.constant() || std::isinf(r.lo)) return r;
+  return {std::nextafter(r.lo, -infinity), std::nextafter(r.hi, infinity)};
+}
 
 }  // namespace
 
@@ -46,6 +54,7 @@ void Tape::bound(const Box& box, Walk& walk) const {
         break;
       case Shortcut::Kind::none:
         walk.ranges[i] = step.op->range(body, local, walk.args);
+        if (step.op != &detail::constant_op()) walk.ranges[i] = not_constant(walk.ranges[i]);
         break;
     }
   }
@@ -80,26 +89,25 @@ std::shared_ptr<const Tape> Tape::shortened(Walk& walk) const {
       for (std::uint32_t k = 0; k < step.arg_count; ++k)
         tape->args_.push_back(walk.place[walk.stand_in[args_[steps_[i].first_arg + k]]]);
     }
-    if (step.frame >= 0) {
-      const auto f = static_cast<std::size_t>(step.frame);
-      if (walk.frame_place[f] < 0) {
-        walk.frame_place[f] = static_cast<std::int32_t>(tape->frames_.size());
-        tape->frames_.push_back(frames_[f]);
-      }
-      step.frame = walk.frame_place[f];
-    }
+    step.frame = walk.kept_frame(step.frame, frames_, tape->frames_);
     tape->steps_.push_back(step);
   }
-  for (TapeMember m : members_) {
-    const StepIndex s = walk.stand_in[m.step];
-    if (walk.place[s] == none || walk.constant[s]) continue;
-    m.step = walk.place[s];
-    tape->members_.push_back(m);
-  }
-  std::ranges::sort(tape->members_, {}, [](const TapeMember& m) { return std::pair(m.step, m.index); });
+  keep_members(walk, *tape);
   tape->owned_ = owned_;
   tape->slots_ = detail::assign_slots(tape->steps_, tape->args_, walk.last_use, walk.free);
   return tape;
+}
+
+/// The members whose value is still computed, or would be: merged ones stay with the step they are part of.
+void Tape::keep_members(Walk& walk, Tape& shorter) const {
+  for (Member m : members_) {
+    const StepIndex s = walk.stand_in[m.at.step];
+    if (walk.place[s] == none || walk.constant[s] || (m.merged() && s != m.at.step)) continue;
+    m.at.step = walk.place[s];
+    m.leaf.frame = m.merged() ? walk.kept_frame(m.leaf.frame, frames_, shorter.frames_) : -1;
+    shorter.members_.push_back(m);
+  }
+  std::ranges::sort(shorter.members_, {}, [](const Member& m) { return std::pair(m.at.step, m.at.index); });
 }
 
 Range Tape::range(const Box& box) const {

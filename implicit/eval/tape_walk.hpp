@@ -23,6 +23,18 @@ struct Tape::Walk {
   std::vector<StepIndex> last_use;
   std::vector<std::uint32_t> free;
 
+  /// The place of a frame among those that are kept, which it joins.
+  std::int32_t kept_frame(std::int32_t frame, const std::vector<const Frame*>& frames,
+                          std::vector<const Frame*>& kept) {
+    if (frame < 0) return frame;
+    const auto f = static_cast<std::size_t>(frame);
+    if (frame_place[f] < 0) {
+      frame_place[f] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(frames[f]);
+    }
+    return frame_place[f];
+  }
+
   static Walk& mine() {
     thread_local Walk walk;
     return walk;

@@ -9,8 +9,10 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "implicit/number/power.hpp"
@@ -83,6 +85,21 @@ HWY_INLINE double expm1(double x) { return std::expm1(x); }
 HWY_INLINE double sin(double x) { return std::sin(x); }
 HWY_INLINE double cos(double x) { return std::cos(x); }
 HWY_INLINE double atan(double x) { return std::atan(x); }
+/// The largest power of two that is not larger than x, a normal number > 0; and 1/p of a power of two p.
+HWY_INLINE Simd power_of_two_below(Simd x) {
+  const hn::RebindToUnsigned<SimdTag> bits;
+  const auto exponent = hn::And(hn::BitCast(bits, x.v), hn::Set(bits, 0x7FF0000000000000ull));
+  return Simd(hn::BitCast(SimdTag(), exponent));
+}
+HWY_INLINE Simd inverse_power_of_two(Simd p) {
+  const hn::RebindToUnsigned<SimdTag> bits;
+  const auto b = hn::Sub(hn::Set(bits, 0x7FE0000000000000ull), hn::BitCast(bits, p.v));
+  return Simd(hn::BitCast(SimdTag(), b));
+}
+HWY_INLINE double power_of_two_below(double x) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7FF0000000000000ull);
+}
+HWY_INLINE double inverse_power_of_two(double p) { return 1.0 / p; }
 /// -1, 0 or 1.
 template <class L>
 HWY_INLINE L sign(L x) {

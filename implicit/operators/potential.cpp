@@ -1,8 +1,11 @@
 #include "implicit/operators/potential.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "implicit/number/targets.hpp"
+#include "implicit/operators/soft_ellipsoid.hpp"
+#include "implicit/primitives/lp_metric.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/potential.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
@@ -106,13 +109,26 @@ Shortcut beyond_fifteen(const void*, const Box&, std::span<const Range> args) {
   return beyond(args[0], 15.0);
 }
 
+/// Of an ellipsoid: no distance is needed.
+Merged soft_ellipsoid_of(const void* body, std::size_t, const Op& inner, const void* inner_body) {
+  if (&inner != &op_for<LpMetric>()) return {};
+  const auto& metric = *static_cast<const LpMetric*>(inner_body);
+  if (metric.n.exponent != 2.0) return {};
+  const SoftEllipsoid both{static_cast<const Blanc*>(body)->softness};
+  return {&op_for<SoftEllipsoid>(), std::make_shared<const SoftEllipsoid>(both), metric.inverse_axes};
+}
+
 }  // namespace detail
 
 template <>
 const Op& op_for<detail::Blanc>() {
   using namespace detail;
-  static const Op op{"blanc", HWY_DYNAMIC_DISPATCH(blanc_simd)(), HWY_STATIC_DISPATCH(blanc_scalar)(),
-                     potential_range<Blanc>, beyond_one};
+  static const Op op = [] {
+    Op o{"blanc", HWY_DYNAMIC_DISPATCH(blanc_simd)(), HWY_STATIC_DISPATCH(blanc_scalar)(),
+         potential_range<Blanc>, beyond_one};
+    o.merge = soft_ellipsoid_of;
+    return o;
+  }();
   return op;
 }
 template <>

@@ -2,6 +2,7 @@
 
 #include "implicit/number/targets.hpp"
 #include "implicit/operators/range_rules.hpp"
+#include "implicit/operators/soft_ellipsoid.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/soft.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
@@ -58,6 +59,12 @@ static Shortcut sum_shortcut(const void*, const Box&, std::span<const Range> arg
   return is(args[1], 0.0) ? Shortcut::to_argument(0) : Shortcut{};
 }
 
+static Merged added_soft_ellipsoid_of(const void*, std::size_t, const Op& inner, const void* inner_body) {
+  if (&inner != &op_for<SoftEllipsoid>()) return {};
+  const AddedSoftEllipsoid both{static_cast<const SoftEllipsoid*>(inner_body)->softness};
+  return {&op_for<AddedSoftEllipsoid>(), std::make_shared<const AddedSoftEllipsoid>(both)};
+}
+
 static Range overlap_range(const void* body, const Box&, std::span<const Range> args) {
   const double offset = static_cast<const SoftOverlap*>(body)->offset;
   return {std::max(0.0, args[0].lo - offset), std::max(0.0, args[0].hi - offset)};
@@ -81,8 +88,12 @@ static Shortcut difference_shortcut(const void*, const Box&, std::span<const Ran
 template <>
 const Op& op_for<detail::SoftSum>() {
   using namespace detail;
-  static const Op op{"soft_sum", HWY_DYNAMIC_DISPATCH(soft_sum_simd)(),
-                     HWY_STATIC_DISPATCH(soft_sum_scalar)(), sum_range, sum_shortcut};
+  static const Op op = [] {
+    Op o{"soft_sum", HWY_DYNAMIC_DISPATCH(soft_sum_simd)(), HWY_STATIC_DISPATCH(soft_sum_scalar)(), sum_range,
+         sum_shortcut};
+    o.merge = added_soft_ellipsoid_of;
+    return o;
+  }();
   return op;
 }
 template <>

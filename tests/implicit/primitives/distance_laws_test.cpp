@@ -156,8 +156,9 @@ TEST(Regions, TouchTheirLevelSetsOnEverySide) {
     if (!made.node.region(1.0)) continue;
     for (const double value : {0.5, 1.0, 7.0})
       for (int side = 0; side < 6; ++side) {
-        const auto values =
-            values_at(*made.tape, touching(spec, *made.node.region(value), side / 2, side % 2 == 1));
+        const Box region = *made.node.region(value);
+        if (!std::isfinite((side % 2 == 1 ? region.hi : region.lo)[side / 2])) continue;  // no side there
+        const auto values = values_at(*made.tape, touching(spec, region, side / 2, side % 2 == 1));
         EXPECT_NEAR(*std::min_element(values.begin(), values.end()), value, 1e-9 * value) << "side " << side;
       }
   }
