@@ -14,7 +14,7 @@ namespace blendwright::detail {
 
 using QuadricCoefficients = std::array<double, 10>;
 
-/// (1), in local coordinates.
+/// (1), in local coordinates up to 1e120 in magnitude, coefficients up to 1e60: no product overflows.
 struct Quadric {
   QuadricCoefficients a;
 };

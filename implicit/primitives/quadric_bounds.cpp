@@ -115,7 +115,8 @@ Range quadric_range(const QuadricCoefficients& a, const Box& box) {
   QuadricCoefficients magnitudes{};
   for (std::size_t i = 0; i < 10; ++i) magnitudes[i] = std::abs(a[i]);
   const double slack = 32.0 * std::numeric_limits<double>::epsilon() * value_at(magnitudes, c.cwiseAbs() + h);
-  return {r.lo - slack, r.hi + slack};
+  const Range range{r.lo - slack, r.hi + slack};
+  return std::isfinite(range.lo) && std::isfinite(range.hi) ? range : Range::everything();
 }
 
 }  // namespace blendwright::detail

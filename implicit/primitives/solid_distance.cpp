@@ -23,7 +23,8 @@ template <class T>
 HWY_INLINE T evaluate(const TorusDistance& b, const Inputs<T>& in) {
   const Point<T> p = in.local();
   const T across[2] = {p.x, p.y};
-  const T section[2] = {length(across) - b.ring, p.z};
+  // A length beyond the largest number counts as 1e300.
+  const T section[2] = {smaller(length(across), T(1e300)) - b.ring, p.z};
   return b.tube - length(section);
 }
 

@@ -17,8 +17,9 @@ inline constexpr double distance_slack = 64.0 * std::numeric_limits<double>::eps
     near[i] = m.lo;
     far[i] = m.hi;
   }
-  const double slack = distance_slack * (size + far.maxCoeff());
-  return {scalar_value(op, body, far) - slack, scalar_value(op, body, near) + slack};
+  const double hi = scalar_value(op, body, near) + distance_slack * (size + near.maxCoeff());
+  if (!far.allFinite()) return {-std::numeric_limits<double>::infinity(), hi};
+  return {scalar_value(op, body, far) - distance_slack * (size + far.maxCoeff()), hi};
 }
 
 }  // namespace blendwright::detail

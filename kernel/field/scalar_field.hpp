@@ -55,8 +55,8 @@ class ScalarField {
     virtual void evaluate(Order order, PointArrays points, std::span<double> out) const = 0;
     /// Contains every value that evaluate() returns for a point of the box.
     [[nodiscard]] virtual Range range(const Box& box) const = 0;
-    /// The values over the box to first order; no wider than range(box), which it is when a model knows no
-    /// better.
+    /// Contains the same values, to first order; the rest is no wider than range(box), which it is when a
+    /// model knows no better.
     [[nodiscard]] virtual LinearBound linear(const Box& box) const { return constant_bound(range(box)); }
     /// range(box), and an equal but cheaper model for points of the box (bit for bit the same values); null
     /// when there is none.

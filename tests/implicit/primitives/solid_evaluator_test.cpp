@@ -48,6 +48,34 @@ TEST(Solids, RangesAndLinearBoundsHoldMillionsOfSamples) {
   }
 }
 
+TEST(Solids, HaveRangesOverBoxesWithoutEnd) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const SolidSample& s : solid_samples()) {
+    SCOPED_TRACE(s.id);
+    const auto tape = build_tape(s.scene);
+    Rng rng(12);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 100; ++i)
+      points.push_back(log_uniform(rng, 0.1, 1e100) * suite::point_in(rng, s.where));
+    const suite::Results values = suite::evaluate(*tape, Order::hessian, points);
+    suite::Faults faults;
+    suite::check_finite(values, points, faults);
+    EXPECT_EQ(faults.list(), no_faults);
+    for (const Box& box : {Box{Vec3::Constant(-infinity), Vec3::Constant(infinity)},
+                           Box{Vec3(-infinity, 0.1, 0.1), Vec3(2.0, infinity, 0.2)},
+                           Box{Vec3::Constant(-1e300), Vec3::Constant(1e300)}}) {
+      const Range range = tape->range(box), linear = tape->linear(box).range();
+      EXPECT_LE(range.lo, range.hi);
+      EXPECT_LE(linear.lo, linear.hi);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (box.contains(points[i])) {
+          EXPECT_TRUE(range.contains(values.at(i, 0)));
+          EXPECT_TRUE(linear.contains(values.at(i, 0)));
+        }
+    }
+  }
+}
+
 /// What a bound leaves open over boxes of half sizes h and h/4 around the same point.
 double openness(const Tape& tape, const Vec3& centre, double h) {
   const Range rest = tape.linear({centre.array() - h, centre.array() + h}).rest;
