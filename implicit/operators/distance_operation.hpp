@@ -6,7 +6,9 @@
 //   is
 //                                             eroded right through
 //   ray scaling  d (|X|/T)^n                  R = R_d / R_T^n, n of either sign
-// n > 0 for the first two. Hsu 2012, with the signs of the exponents and r/T corrected.
+// n > 0 for the first two. P.-C. Hsu, Distance Function Operations for Developing New Field Functions, and
+// Ray-Scaling Operations for Deformation of Soft Objects, 2016; with the signs of the exponents and r/T
+// corrected.
 #include "implicit/eval/op.hpp"
 #include "implicit/number/power.hpp"
 

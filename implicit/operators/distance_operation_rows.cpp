@@ -33,10 +33,10 @@ bool check_operands(NodeInputs& in, std::initializer_list<std::string_view> keys
   for (const std::string_view key : keys) {
     const Operand node = in.node(key);
     if (!node->distance)
-      problem(key, scene_error::level_mismatch,
-              (node->level == Level::one ? std::string("is signed")
-                                         : "is of " + std::string(name(node->level))) +
-                  ", must be a distance (one level, never negative)");
+      problem(
+          key, scene_error::level_mismatch,
+          (node->level == Level::one ? std::string("is signed") : "is of " + std::string(name(node->level))) +
+              ", must be a distance (one level, never negative)");
     else if (!node->ray_linear)
       problem(key, scene_error::not_ray_linear, "is not ray-linear, must be");
     else if (first->ray_linear && !same_origin(*first, *node))
@@ -189,14 +189,16 @@ constexpr NodeFamily family = NodeFamily::distance_operation;
 
 constexpr std::array rows{
     NodeKind{"dilation", family, "x = (d^-n + T^-n)^(-1/n): R = (R_d^n + R_T^n)^(1/n)",
-             "a distance enlarged by the radii of another", "Hsu 2012", dilation_params, make_dilation},
+             "a distance enlarged by the radii of another", "Hsu, Distance Function Operations",
+             dilation_params, make_dilation},
     NodeKind{"erosion", family, "x = (d^-n - T^-n)^(-1/n): R = (R_d^n - R_T^n)^(1/n)",
-             "a distance reduced by the radii of another", "Hsu 2012", erosion_params, make_erosion},
+             "a distance reduced by the radii of another", "Hsu, Distance Function Operations",
+             erosion_params, make_erosion},
     NodeKind{"erosion_after_dilation", family, "R = ((R_d^n + R_D^n)^(m/n) - R_E^m)^(1/m)",
-             "a distance enlarged by one and reduced by another", "Hsu 2012", both_params,
-             make_erosion_after_dilation},
+             "a distance enlarged by one and reduced by another", "Hsu, Distance Function Operations",
+             both_params, make_erosion_after_dilation},
     NodeKind{"ray_scaling", family, "x = d (r/T)^n, r = |X|: R = R_d / R_T^n", "a distance scaled ray by ray",
-             "Hsu 2012", ray_scaling_params, make_ray_scaling},
+             "Hsu 2016", ray_scaling_params, make_ray_scaling},
 };
 
 }  // namespace
