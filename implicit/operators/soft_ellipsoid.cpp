@@ -90,8 +90,9 @@ HWY_EXPORT(added_soft_ellipsoid_simd);
 /// How far (relative) |y| may be off by rounding.
 constexpr double radius_slack = 1e-13;
 
-/// The nearest and the farthest corner of magnitudes: P falls with |y|. The slack on |y| covers rounding also
-/// near |y| = 1, where P vanishes like its square; Blanc's P' is at most (2 + 16 s / 9) P where P > 1e-3.
+/// The nearest and the farthest corner of magnitudes: P falls with |y|. The slack on |y| is far above the few
+/// ulp by which |y| is rounded, and covers P also near |y| = 1, where it vanishes and a relative slack is
+/// none.
 static Range ellipsoid_range(double softness, const Box& local) {
   const SoftEllipsoid body{softness};
   Vec3 near, far;
