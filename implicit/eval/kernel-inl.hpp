@@ -7,6 +7,8 @@
 #define BLENDWRIGHT_KERNEL_INL_HPP
 #endif
 
+#include <type_traits>
+
 #include "implicit/eval/op.hpp"
 #include "implicit/number/number-inl.hpp"
 
@@ -77,9 +79,9 @@ class Inputs {
         if constexpr (NumberTraits<T>::order > 0) y[j].d[j] = L(1.0);
       } else {
         const double* column = frame_ + 4 * j;
-        const L v = multiply_add(
-            x[0], L(column[0]),
-            multiply_add(x[1], L(column[1]), multiply_add(x[2], L(column[2]), L(column[3]))));
+        const L v =
+            multiply_add(x[0], L(column[0]),
+                         multiply_add(x[1], L(column[1]), multiply_add(x[2], L(column[2]), L(column[3]))));
         y[j] = constant<T>(v);
         if constexpr (NumberTraits<T>::order > 0)
           for (int i = 0; i < 3; ++i) y[j].d[i] = L(column[i]);
@@ -98,8 +100,10 @@ class Inputs {
 
 template <class T, class Body>
 void run_kernel(const void* body, const KernelInput& in, double* out) {
-  const Body& b = *static_cast<const Body*>(body);
-  // Copies, so that the compiler sees that `out` does not change them and reads them once.
+  // Copies, so that the compiler sees that `out` does not change them and reads them once; of bodies when
+  // they are small and plain.
+  constexpr bool small = std::is_trivially_copyable_v<Body> && sizeof(Body) <= 256;
+  const std::conditional_t<small, Body, const Body&> b = *static_cast<const Body*>(body);
   const KernelInput mine = in;
   double frame[12] = {};
   if (in.frame != nullptr)

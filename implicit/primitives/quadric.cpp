@@ -12,38 +12,63 @@
 HWY_BEFORE_NAMESPACE();
 namespace blendwright::detail::HWY_NAMESPACE {
 
-/// (1) as x (A11 x + A12 y + A13 z + A14) + y (A22 y + A23 z + A24) + z (A33 z + A34) + A44, with its
-/// derivatives taken by hand: they are linear forms of the same products.
+/// (1) as x lx + y ly + z lz + A44, lx = A11 x + A12 y + A13 z + A14, ly = A22 y + A23 z + A24, lz = A33 z +
+/// A34.
+template <class L>
+struct QuadricForms {
+  L lx, ly, lz, value;
+  HWY_INLINE QuadricForms(const Quadric& b, L x, L y, L z) {
+    const auto& a = b.a;
+    lx = multiply_add(L(a[0]), x, L(a[6]));
+    ly = multiply_add(L(a[1]), y, L(a[7]));
+    lz = multiply_add(L(a[2]), z, L(a[8]));
+    if (b.crossed) {
+      lx = multiply_add(L(a[3]), y, multiply_add(L(a[4]), z, lx));
+      ly = multiply_add(L(a[5]), z, ly);
+    }
+    value = multiply_add(x, lx, multiply_add(y, ly, multiply_add(z, lz, L(a[9]))));
+  }
+};
+
+/// (1), with its derivatives taken by hand: they are linear forms of the same products.
 template <class T>
-HWY_INLINE T quadric_at(const Quadric& b, const Point<T>& p) {
+HWY_INLINE T quadric_at(const QuadricCoefficients& a, const Point<T>& p, const QuadricForms<LaneOf<T>>& at) {
   using L = LaneOf<T>;
-  const auto& a = b.a;
   const L x = value_of(p.x), y = value_of(p.y), z = value_of(p.z);
-  const L lx = multiply_add(L(a[0]), x, multiply_add(L(a[3]), y, multiply_add(L(a[4]), z, L(a[6]))));
-  const L ly = multiply_add(L(a[1]), y, multiply_add(L(a[5]), z, L(a[7])));
-  const L lz = multiply_add(L(a[2]), z, L(a[8]));
-  const L q = multiply_add(x, lx, multiply_add(y, ly, multiply_add(z, lz, L(a[9]))));
-  const L g[3] = {multiply_add(L(a[0]), x, lx), multiply_add(L(a[1]), y, multiply_add(L(a[3]), x, ly)),
-                  multiply_add(L(a[2]), z, multiply_add(L(a[4]), x, multiply_add(L(a[5]), y, lz)))};
+  const L g[3] = {multiply_add(L(a[0]), x, at.lx), multiply_add(L(a[1]), y, multiply_add(L(a[3]), x, at.ly)),
+                  multiply_add(L(a[2]), z, multiply_add(L(a[4]), x, multiply_add(L(a[5]), y, at.lz)))};
   const L h[6] = {2.0 * a[0], 2.0 * a[1], 2.0 * a[2], a[3], a[4], a[5]};
-  return of_local(p, q, g, h);
+  return of_local(p, at.value, g, h);
+}
+template <class T>
+HWY_INLINE QuadricForms<LaneOf<T>> forms_at(const Quadric& b, const Point<T>& p) {
+  return {b, value_of(p.x), value_of(p.y), value_of(p.z)};
 }
 
 template <class T>
 HWY_INLINE T evaluate(const Quadric& b, const Inputs<T>& in) {
-  return quadric_at(b, in.local());
+  const Point<T> p = in.local();
+  return quadric_at(b.a, p, forms_at(b, p));
 }
 
-/// (2) and the partial derivatives of a perturbation by q.
+/// t = max(q + c, 0).
+template <class L>
+HWY_INLINE L depth_in_support(const Perturbation& b, L q) {
+  return lane::max(q + L(b.free_term), L(0.0));
+}
+/// w t^(k-2).
+template <class L>
+HWY_INLINE L second_factor(const Perturbation& b, L t) {
+  const L w = b.weight;
+  return b.power == 2 ? w : b.power == 3 ? w * t : w * integer_power(t, b.power - 2);
+}
+/// (2), with its derivatives by q: k w t^(k-1), k (k-1) w t^(k-2), and 0 outside of the support.
 template <class T>
 HWY_INLINE T perturbation_of(const Perturbation& b, const T& q) {
   using L = LaneOf<T>;
-  const L t = lane::max(value_of(q) + L(b.free_term), L(0.0));
-  const int k = b.power;
-  const L low = k == 2 ? L(1.0) : integer_power(t, k - 2);  // t^(k-2)
-  const L second = select(t > L(0.0), low, L(0.0));
-  return chain(q, L(b.weight) * (t * t * low), L(k * b.weight) * (t * low),
-               L(k * (k - 1) * b.weight) * second);
+  const L t = depth_in_support(b, value_of(q)), factor = second_factor(b, t);
+  const L second = select(t > L(0.0), factor, L(0.0));
+  return chain(q, t * t * factor, L(b.power) * (t * factor), L(b.power * (b.power - 1)) * second);
 }
 
 template <class T>
@@ -54,9 +79,22 @@ template <class T>
 HWY_INLINE T evaluate(const AddedPerturbation& b, const Inputs<T>& in) {
   return in.arg(0) + perturbation_of(b.added, in.arg(1));
 }
+/// Outside the support the derivatives of the sum are left as they are, to the sign of a zero, whether a
+/// vector has points inside or not.
 template <class T>
 HWY_INLINE T evaluate(const AddedQuadric& b, const Inputs<T>& in) {
-  return in.arg(0) + perturbation_of(b.added, quadric_at(b.q, in.local()));
+  using L = LaneOf<T>;
+  const Point<T> p = in.local();
+  const QuadricForms<L> q = forms_at(b.q, p);
+  const T sum = in.arg(0);
+  if constexpr (NumberTraits<T>::order == 0) {
+    const L t = depth_in_support(b.added, q.value);
+    return multiply_add(t * t, second_factor(b.added, t), sum);
+  } else {
+    const auto inside = q.value > L(-b.added.free_term);
+    if (!any(inside)) return sum;
+    return choose<T>(inside, sum + perturbation_of(b.added, quadric_at(b.q.a, p, q)), sum);
+  }
 }
 template <class T>
 HWY_INLINE T evaluate(const Sum&, const Inputs<T>& in) {

@@ -16,7 +16,10 @@ using QuadricCoefficients = std::array<double, 10>;
 
 /// (1), in local coordinates up to 1e120 in magnitude, coefficients up to 1e60: no product overflows.
 struct Quadric {
+  explicit Quadric(const QuadricCoefficients& coefficients)
+      : a(coefficients), crossed(a[3] != 0.0 || a[4] != 0.0 || a[5] != 0.0) {}
   QuadricCoefficients a;
+  bool crossed;  ///< whether there are terms xy, xz or yz
 };
 /// (2) of its one argument q; k = power, c = free_term: grows or shrinks the support and the height.
 struct Perturbation {

@@ -60,8 +60,8 @@ Node make_ellipsoid_quadric(NodeInputs& in) {
 bool is_function(NodeInputs& in, std::string_view key, const Node& node, int index = -1) {
   if (node.level == Level::function) return true;
   in.problem(key, scene_error::level_mismatch,
-             "is of " + std::string(name(node.level)) + ", must be of " +
-                 std::string(name(Level::function)) + "; convert it",
+             "is of " + std::string(name(node.level)) + ", must be of " + std::string(name(Level::function)) +
+                 "; convert it",
              index);
   return false;
 }
@@ -144,7 +144,7 @@ Adding adding_of(const std::shared_ptr<const Node>& bump) {
                TapeBuilder& tape, const Frame& frame, StepIndex total) {
       return tape.add(body, Frame(), {total, q->emit(tape, frame)});
     };
-  return [body = std::make_shared<const AddedQuadric>(AddedQuadric{{q->quadric->coefficients}, p}),
+  return [body = std::make_shared<const AddedQuadric>(AddedQuadric{Quadric(q->quadric->coefficients), p}),
           inner = q->quadric->frame](TapeBuilder& tape, const Frame& frame, StepIndex total) {
     return tape.add(body, inner.after(frame), {total});
   };
