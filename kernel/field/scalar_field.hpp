@@ -45,6 +45,8 @@ struct FieldValues {
   }
 };
 
+struct RigidMotion;
+
 class ScalarField {
  public:
   /// What a model of a field must do; all const, callable from several threads at once.
@@ -65,6 +67,11 @@ class ScalarField {
       std::shared_ptr<const Model> model;
     };
     [[nodiscard]] virtual Within within(const Box& box) const = 0;
+    /// An equal model of the moved solid; null: the points are moved back instead (see placed()).
+    [[nodiscard]] virtual std::shared_ptr<const Model> placed(const RigidMotion& motion) const {
+      (void)motion;
+      return nullptr;
+    }
     /// For each point the index of the primitive whose own surface is nearest to first order (see
     /// ScalarField::members); 0 when there is one or none.
     virtual void nearest_member(PointArrays points, std::span<std::uint32_t> out) const = 0;
