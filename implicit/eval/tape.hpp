@@ -46,6 +46,8 @@ class Tape final : public ScalarField::Model {
   /// First-order distance |f - surface value| / |gradient f| of each member that is still on the tape; the
   /// smallest wins, the lowest index on ties; 0 where no member's gradient is there to tell.
   void nearest_member(PointArrays points, std::span<std::uint32_t> out) const override;
+  /// The same steps and bodies, all seen through moved frames: costs about as much as one range.
+  [[nodiscard]] std::shared_ptr<const Model> placed(const RigidMotion& motion) const override;
 
   [[nodiscard]] std::size_t size() const { return steps_.size(); }
   [[nodiscard]] std::size_t slots() const { return slots_; }
