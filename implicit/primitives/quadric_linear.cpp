@@ -21,6 +21,18 @@ double rounding_of(const QuadricCoefficients& a, const Box& box, const Vec3& sla
          2.0 * steepest.dot(slack);
 }
 
+/// The terms of second order for |x_i| <= reach_i: per axis, and the magnitudes of the cross terms.
+Range second_order(const QuadricCoefficients& a, const Vec3& reach) {
+  const double cross = std::abs(a[3]) * reach[0] * reach[1] + std::abs(a[4]) * reach[0] * reach[2] +
+                       std::abs(a[5]) * reach[1] * reach[2];
+  Range range{-cross, cross};
+  for (int i = 0; i < 3; ++i) {
+    const double square = a[static_cast<std::size_t>(i)] * reach[i] * reach[i];
+    (square < 0.0 ? range.lo : range.hi) += square;
+  }
+  return range;
+}
+
 /// w max(q + c, 0)^k and its derivative by q.
 struct PowerAt {
   double value, slope;
@@ -52,10 +64,11 @@ QuadricCoefficients remapped(const QuadricCoefficients& a, const Vec3& c, const 
 LinearBound quadric_linear(const void* body, const LinearInput& in) {
   const QuadricCoefficients& a = static_cast<const Quadric*>(body)->a;
   const QuadricCoefficients t = remapped(a, in.centre, in.axes);
-  LinearBound bound{t[9], {t[6], t[7], t[8]}, {0.0, 0.0}};
-  const double cross = std::abs(t[3]) + std::abs(t[4]) + std::abs(t[5]);
-  bound.rest = {-cross, cross};
-  for (std::size_t i = 0; i < 3; ++i) (t[i] < 0.0 ? bound.rest.lo : bound.rest.hi) += t[i];
+  const Vec3 reach = in.axes.cwiseAbs().rowwise().sum();
+  const Range along_box = second_order(t, Vec3::Ones()), along_axes = second_order(a, reach);
+  const LinearBound bound{t[9],
+                          {t[6], t[7], t[8]},
+                          {std::max(along_box.lo, along_axes.lo), std::min(along_box.hi, along_axes.hi)}};
   return bound.widened(rounding_of(a, in.local, in.slack));
 }
 
