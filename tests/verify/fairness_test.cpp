@@ -45,7 +45,7 @@ TEST(Fairness, SphereHasItsClosedForms) {
   EXPECT_NEAR(r.largest.value - r.smallest.value, 0.0, 1e-13);
   EXPECT_NEAR(std::abs(r.largest.value), 1.0 / R, 1e-14);
   ASSERT_TRUE(r.draft);
-  // The normal Su x Sv points inward, so latitudes change sign. 20 halvings of thread a cell end 1e-8 from a
+  // The normal Su x Sv points inward, so latitudes change sign. 20 halvings of half a cell end 1e-8 from a
   // border extreme at the latest.
   EXPECT_NEAR((*r.draft)[0].value, -1.0, 1e-7);
   EXPECT_NEAR((*r.draft)[1].value, 0.5, 1e-7);
