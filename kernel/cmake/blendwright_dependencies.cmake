@@ -2,6 +2,7 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)      # linear algebra; the only public dependency
 find_package(TBB REQUIRED)                       # threads
 find_package(hwy REQUIRED)                       # SIMD with run-time dispatch (grid evaluation)
+find_package(Boost 1.74 REQUIRED)                # R-tree of boxes (many bodies); headers only
 find_package(Ceres REQUIRED)                     # least squares (correspondence, fits)
 find_package(nlohmann_json 3.11 REQUIRED)        # job files and reports
 find_package(CLI11 REQUIRED)                     # the command line
