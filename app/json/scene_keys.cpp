@@ -54,7 +54,7 @@ std::string type_text(const NodeParam& p) {
     case Type::points:
       return "a list of points [x, y, z]";
     case Type::numbers:
-      return "a list of " + n + " numbers";
+      return p.count == 0 ? "a list of numbers" : "a list of " + n + " numbers";
     case Type::rows:
       return n + " rows of " + std::to_string(p.columns) + " numbers";
     case Type::formulas:

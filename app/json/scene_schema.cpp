@@ -38,7 +38,7 @@ Value param_schema(const NodeParam& p, const KeyInfo& key) {
     case Type::points:
       return list_of(reference("point"), 1);
     case Type::numbers:
-      return exactly(number, p.count);
+      return p.count == 0 ? list_of(number, 1) : exactly(number, p.count);
     case Type::rows:
       return exactly(exactly(number, p.columns), p.count);
     case Type::formulas:

@@ -1,7 +1,6 @@
 #include "implicit/operators/combination.hpp"
 
 #include <array>
-#include <vector>
 
 #include "implicit/operators/hoffmann.hpp"
 #include "implicit/operators/log_sum_exp.hpp"
@@ -41,35 +40,6 @@ constexpr std::array<Operator, operator_count> rows{{
     {"min", std::nullopt, unite, OperatorParams::none, true},
     {"max", std::nullopt, intersect, OperatorParams::none, true},
 }};
-
-/// One operation of all arguments.
-template <class Body>
-Combination of_all(Body body) {
-  return [shared = std::make_shared<const Body>(std::move(body))](TapeBuilder& tape, Args args) {
-    return tape.add(op_for<Body>(), shared, Frame(), args);
-  };
-}
-
-/// An operation of two, from left to right.
-template <class Body>
-Combination of_two(Body body) {
-  return [shared = std::make_shared<const Body>(std::move(body))](TapeBuilder& tape, Args args) {
-    StepIndex result = args[0];
-    for (const StepIndex next : args.subspan(1)) result = tape.add<Body>(shared, Frame(), {result, next});
-    return result;
-  };
-}
-
-/// All but the first argument go through a complement.
-template <class Complement>
-Combination with_complements(Combination combine) {
-  return [combine = std::move(combine), shared = std::make_shared<const Complement>()](TapeBuilder& tape,
-                                                                                       Args args) {
-    std::vector<StepIndex> list{args[0]};
-    for (const StepIndex a : args.subspan(1)) list.push_back(tape.add<Complement>(shared, Frame(), {a}));
-    return combine(tape, list);
-  };
-}
 
 /// max(0, f1 + ... + fk - (k - 1)).
 Combination soft_intersection() {

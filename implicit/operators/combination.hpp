@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "implicit/eval/tape.hpp"
 
@@ -63,6 +64,37 @@ struct OperatorValues {
 /// from left to right: B(B(f1, f2), f3). The bodies are made once.
 using Combination = std::function<StepIndex(TapeBuilder&, std::span<const StepIndex>)>;
 [[nodiscard]] Combination combination(OperatorId id, const OperatorValues& values);
+
+/// One operation of all arguments.
+template <class Body>
+Combination of_all(Body body) {
+  return [shared = std::make_shared<const Body>(std::move(body))](TapeBuilder& tape,
+                                                                  std::span<const StepIndex> args) {
+    return tape.add(op_for<Body>(), shared, Frame(), args);
+  };
+}
+
+/// An operation of two, from left to right.
+template <class Body>
+Combination of_two(Body body) {
+  return [shared = std::make_shared<const Body>(std::move(body))](TapeBuilder& tape,
+                                                                  std::span<const StepIndex> args) {
+    StepIndex result = args[0];
+    for (const StepIndex next : args.subspan(1)) result = tape.add<Body>(shared, Frame(), {result, next});
+    return result;
+  };
+}
+
+/// All but the first argument go through a complement.
+template <class Complement>
+Combination with_complements(Combination combine) {
+  return [combine = std::move(combine), shared = std::make_shared<const Complement>()](
+             TapeBuilder& tape, std::span<const StepIndex> args) {
+    std::vector<StepIndex> list{args[0]};
+    for (const StepIndex a : args.subspan(1)) list.push_back(tape.add<Complement>(shared, Frame(), {a}));
+    return combine(tape, list);
+  };
+}
 
 /// The combination of `count` operands that are all `value`.
 [[nodiscard]] double combined(const Combination& combine, std::size_t count, double value);

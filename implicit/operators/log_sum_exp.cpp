@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "implicit/number/targets.hpp"
+#include "implicit/operators/function_bounds.hpp"
 #include "implicit/operators/range_rules.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/log_sum_exp.cpp"
@@ -58,13 +59,28 @@ static Range log_sum_exp_range(const void* body, const Box&, std::span<const Ran
   return spread(r, 0.0, range_slack * size);
 }
 
+/// The union is concave, intersection and difference are convex; all follow the shifts of their arguments.
+static LinearBound log_sum_exp_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const LogSumExp*>(body);
+  const double slack =
+      range_slack * (size_of(in.ranges) + std::log(static_cast<double>(in.args.size())) / b.n);
+  const Join join = b.role == ZeroRole::make_difference ? Join::subtract : Join::unite;
+  if (in.args.size() > 5) return shift_bound(op_for<LogSumExp>(), body, in, join, slack);
+  const Bend bend = b.role == ZeroRole::make_union ? Bend::concave : Bend::convex;
+  return tangent_bound(op_for<LogSumExp>(), body, in, bend, slack);
+}
+
 }  // namespace detail
 
 template <>
 const Op& op_for<detail::LogSumExp>() {
   using namespace detail;
-  static const Op op{"log_sum_exp", HWY_DYNAMIC_DISPATCH(log_sum_exp_simd)(),
-                     HWY_STATIC_DISPATCH(log_sum_exp_scalar)(), log_sum_exp_range};
+  static const Op op{"log_sum_exp",
+                     HWY_DYNAMIC_DISPATCH(log_sum_exp_simd)(),
+                     HWY_STATIC_DISPATCH(log_sum_exp_scalar)(),
+                     log_sum_exp_range,
+                     nullptr,
+                     log_sum_exp_linear};
   return op;
 }
 

@@ -57,35 +57,6 @@ OperatorValues read_values(NodeInputs& in, const Operator& row) {
   return v;
 }
 
-/// The hull of all regions: a point where the value is reached lies in one of them.
-std::optional<Box> hull_of(const Nodes& of, double value) {
-  std::optional<Box> all;
-  for (const auto& node : of) {
-    const std::optional<Box> one = node->region(value);
-    if (!one) return std::nullopt;
-    all = all ? hull(*all, *one) : *one;
-  }
-  return all;
-}
-
-/// What all regions have in common; those that are not known do not restrict it. When it is empty it is a
-/// point.
-std::optional<Box> common_of(const Nodes& of, double value) {
-  std::optional<Box> all;
-  for (const auto& node : of) {
-    const std::optional<Box> one = node->region(value);
-    if (!one) continue;
-    if (!all) {
-      all = one;
-      continue;
-    }
-    const std::optional<Box> both = common(*all, *one);
-    if (!both) return Box{all->lo, all->lo};
-    all = both;
-  }
-  return all;
-}
-
 /// Where a union reaches `value` one operand reaches this one. Unions of levels one and half are homogeneous
 /// and rise: at most value/B(1, ..., 1) is reached by the lowest of level one, at least by the highest of
 /// level half. Those of the other levels follow their operands' shifts: value - B(0, ..., 0).
@@ -127,6 +98,32 @@ std::function<std::optional<Box>(double)> region_of(OperatorId id, Level level, 
 }
 
 }  // namespace
+
+std::optional<Box> hull_of(std::span<const std::shared_ptr<const Node>> of, double value) {
+  std::optional<Box> all;
+  for (const auto& node : of) {
+    const std::optional<Box> one = node->region(value);
+    if (!one) return std::nullopt;
+    all = all ? hull(*all, *one) : *one;
+  }
+  return all;
+}
+
+std::optional<Box> common_of(std::span<const std::shared_ptr<const Node>> of, double value) {
+  std::optional<Box> all;
+  for (const auto& node : of) {
+    const std::optional<Box> one = node->region(value);
+    if (!one) continue;
+    if (!all) {
+      all = one;
+      continue;
+    }
+    const std::optional<Box> both = common(*all, *one);
+    if (!both) return Box{all->lo, all->lo};
+    all = both;
+  }
+  return all;
+}
 
 Node make_operation(NodeInputs& in, OperatorId id) {
   const Operator& row = operator_row(id);

@@ -77,7 +77,7 @@ struct NodeParam {
     word,               ///< one of `words`; default the first
     point,              ///< [x, y, z]
     points,             ///< [[x, y, z], ...], at least one
-    numbers,            ///< [a, b, ...] of `count` numbers
+    numbers,            ///< [a, b, ...] of `count` numbers; of any, but at least one, for count 0
     rows,               ///< `count` rows of three numbers (of two for count 3 when `columns` is 2)
     formulas,           ///< `count` formulas of t
     node,               ///< a node

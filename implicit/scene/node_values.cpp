@@ -52,7 +52,7 @@ std::string requirement(const NodeParam& p) {
     case Type::points:
       return "a list of at least one point [x, y, z]";
     case Type::numbers:
-      return "a list of " + n + " numbers";
+      return p.count == 0 ? "a list of at least one number" : "a list of " + n + " numbers";
     case Type::rows:
       return n + " rows of " + count_text(p.columns) + " numbers";
     case Type::formulas:
@@ -188,7 +188,7 @@ class Checker {
 
   void check_list(const NodeParam& p, const NodeValue& value, std::size_t count) {
     const auto* v = std::get_if<std::vector<double>>(&value);
-    if (!v || v->size() != count) return wrong(p, value);
+    if (!v || v->empty() || (count != 0 && v->size() != count)) return wrong(p, value);
     check_finite(p, *v, "");
   }
 

@@ -89,7 +89,7 @@ JsonValue sample(const NodeParam& p) {
     case Type::points:
       return list(1, list(3, 1.0));
     case Type::numbers:
-      return list(p.count, 1.0);
+      return list(std::max<std::size_t>(p.count, 1), 1.0);
     case Type::rows:
       return list(p.count, list(p.columns, 1.0));
     case Type::formulas:

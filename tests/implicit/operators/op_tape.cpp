@@ -41,9 +41,18 @@ Sampled sample(const Tape& tape, const Vec3& at) {
 
 template <>
 const Op& op_for<test::Coordinate>() {
-  static const Op op{"coordinate", test::copies, test::copies,
+  static const Op op{"coordinate",
+                     test::copies,
+                     test::copies,
                      [](const void* body, const Box& local, std::span<const Range>) {
                        return local.axis(static_cast<const test::Coordinate*>(body)->axis);
+                     },
+                     nullptr,
+                     [](const void* body, const LinearInput& in) {
+                       const int axis = static_cast<const test::Coordinate*>(body)->axis;
+                       // The box's ends and middle are rounded.
+                       return LinearBound{in.centre[axis], in.axes.row(axis).transpose(), {0.0, 0.0}}.widened(
+                           1e-15 * (in.local.lo.cwiseAbs() + in.local.hi.cwiseAbs())[axis]);
                      }};
   return op;
 }

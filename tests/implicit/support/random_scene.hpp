@@ -94,7 +94,7 @@ class RandomScene {
             p.words[static_cast<std::size_t>(integer(rng_, 0, static_cast<int>(p.words.size()) - 1))]);
         return;
       case Type::point:
-        if (key == "u") return;  // depends on others
+        if (key == "u" || key == "through") return;  // depends on others, is instead of u
         values[key] = key == "normal" || key == "axis" ? direction() : point(1.5);
         return;
       case Type::points: {
@@ -127,6 +127,8 @@ class RandomScene {
   }
   double random_number(const NodeParam& p) {
     const std::string_view key = p.info.name;
+    if (key == "m" && p.type == NodeParam::Type::integer) return integer(rng_, 1, 3);
+    if (key == "order") return integer(rng_, 1, 3);
     if (p.type == NodeParam::Type::integer) return integer(rng_, 2, 7);
     if (key.ends_with("_deg")) return uniform(rng_, -120.0, 120.0);
     if (key == "m") return std::max(exponent(), 1.2);
@@ -135,6 +137,10 @@ class RandomScene {
     if (key == "sigma") return uniform(rng_, 0.1, 1.2);
     if (key == "softness") return uniform(rng_, 0.0, 3.0);
     if (key == "r1" || key == "r2") return uniform(rng_, 0.2, 0.99);
+    if (key == "u") return uniform(rng_, 0.05, 0.95);
+    if (key == "w") return chance(0.5) ? pick({1.0, 2.0, 3.0}) : uniform(rng_, 1.0, 8.0);
+    if (key == "alpha") return chance(0.3) ? pick({0.0, 1.0}) : uniform(rng_, -0.9, 1.0);
+    if (key == "fade") return uniform(rng_, 0.05, 0.8);
     if (key == "scale") return log_uniform(rng_, 0.6, 1.6);
     return length();
   }
@@ -203,8 +209,9 @@ class RandomScene {
       const std::string key(p.info.name);
       if (p.type == NodeParam::Type::nodes) {
         std::vector<NodeRef> list;
-        const bool two = kind.name.find("difference") != std::string_view::npos;
+        const bool two = kind.name.find("difference") != std::string_view::npos || of_two(kind);
         for (int k = two ? 2 : integer(rng_, 2, 4); k > 0; --k) list.push_back(ref(field(level, depth - 1)));
+        if (find_key(kind, "r") && find_key(kind, "w")) values["r"] = reaches(list.size());
         values[key] = list;
       } else if (p.type == NodeParam::Type::node) {
         values[key] = ref(field(level, depth - 1));
@@ -216,14 +223,34 @@ class RandomScene {
       values["r2"] = r2;
       values["p"] = uniform(rng_, -r1 * r2, 0.9 * r1 * r2);
     }
+    if (const NodeParam* a = find_key(kind, "a"); a && a->type == NodeParam::Type::numbers) {
+      std::vector<double> amounts{uniform(rng_, -0.6, 0.6)};
+      while (amounts.size() < a->count) amounts.push_back(uniform(rng_, 0.2, 1.5));
+      values["a"] = amounts;
+    }
     return add_random(std::string(kind.name), std::move(values));
   }
-  static bool find_key(const NodeKind& kind, std::string_view key) {
-    return std::any_of(kind.params.begin(), kind.params.end(),
-                       [&](const NodeParam& p) { return p.info.name == key; });
+  static const NodeParam* find_key(const NodeKind& kind, std::string_view key) {
+    for (const NodeParam& p : kind.params)
+      if (p.info.name == key) return &p;
+    return nullptr;
+  }
+  /// One number for every operand, or one for all.
+  std::vector<double> reaches(std::size_t operands) {
+    std::vector<double> r{uniform(rng_, 0.2, 1.2)};
+    if (chance(0.7))
+      while (r.size() < operands) r.push_back(uniform(rng_, 0.2, 1.2));
+    return r;
+  }
+  static bool of_two(const NodeKind& kind) {
+    return kind.name.starts_with("liming") || kind.name.starts_with("pasko") ||
+           kind.name.starts_with("bounded");
   }
   /// Whether an operation works in a level, by its name; min, max and complement work in all.
   static bool of_level(const NodeKind& kind, Level level) {
+    for (const std::string_view start : {"r_", "r0m_", "rockwood_", "local_"})
+      if (kind.name.starts_with(start)) return level == Level::function;
+    if (kind.name.ends_with("_function") || of_two(kind)) return level == Level::function;
     if (kind.name.ends_with("_one")) return level == Level::one;
     if (kind.name.ends_with("_half") || kind.name.starts_with("soft_")) return level == Level::half;
     if (kind.name.ends_with("_zero")) return level == Level::zero;
