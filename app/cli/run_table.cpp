@@ -101,6 +101,29 @@ std::string seam_table(const std::vector<SeamRow>& rows, const JobSpec& job) {
   return text + legend;
 }
 
+/// The pairs (sampled, proven) of every stage; empty when no bounds were asked for.
+std::string proven_table(const JobResult& result) {
+  const std::string unit = name(result.job.unit);
+  TextRows table{
+      {"blend", "side", "stage", "proven gap (" + unit + ")", "angle (deg)", "jump (1/" + unit + ")"}};
+  for (const BlendResult& b : result.blends)
+    for (const BlendReport& stage : b.stages) {
+      if (!stage.proven) continue;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const SeamCertificate& c = (*stage.proven)[i];
+        const Continuity asked = b.entry.sides[i].side.continuity;
+        const auto bound = [](const ProvenFigure& f, double factor, bool needed) {
+          const std::string text = std::isfinite(f.proven) ? figure(f.proven * factor, needed) : "unproven";
+          return f.agreed() || !std::isfinite(f.proven) ? text : text + " unproven";
+        };
+        table.push_back({b.entry.name, i == 0 ? "from" : "to", stage.stage, bound(c.gap, 1.0, true),
+                         bound(c.angle, Radians(1.0).degrees(), asked >= Continuity::G1),
+                         bound(c.curvature, 1.0, asked >= Continuity::G2)});
+      }
+    }
+  return table.size() == 1 ? std::string() : aligned(table);
+}
+
 std::string failed_checks(const JobResult& result) {
   std::string text;
   for (const BlendResult& b : result.blends) {
@@ -165,6 +188,7 @@ std::string run_table(const JobResult& result, const JobOutputs* outputs, const 
   std::string text = job_file + ": " + counted(result.blends.size(), "blend") + ", " +
                      counted(rows.size(), "seam") + ", " + verdict(rows, verified(result, outputs)) + "\n";
   text += seam_table(rows, result.job);
+  text += proven_table(result);
   text += failed_checks(result);
   if (outputs)
     for (const std::string& p : shape_problems(result, *outputs)) text += "  " + p + "\n";

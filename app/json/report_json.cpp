@@ -1,5 +1,7 @@
 // The report: deterministic bytes, every figure with its place, and the tolerances that the verdict follows
 // from.
+#include <cmath>
+
 #include "app/json/choices.hpp"
 #include "app/json/job_reader.hpp"
 #include "app/json/report_objects.hpp"
@@ -56,9 +58,45 @@ constexpr Field<Extreme> extreme_fields[] = {
 };
 JsonValue extreme(const Extreme& e) { return written<Extreme>(e, extreme_fields); }
 
+/// A pair (sampled, proven) in the unit that it is reported in.
+struct ScaledProof {
+  const ProvenFigure& figure;
+  double factor = 1.0;
+};
+constexpr Field<ScaledProof> proof_fields[] = {
+    {"sampled", "number", "largest sample",
+     [](const ScaledProof& p) { return JsonValue(p.figure.sampled * p.factor); }},
+    {"proven", "number or null", "no value anywhere on the trimline is larger; null: nothing is proven",
+     [](const ScaledProof& p) {
+       return std::isfinite(p.figure.proven) ? JsonValue(p.figure.proven * p.factor) : JsonValue();
+     }},
+    {"found", "number", "a value that is proven to occur",
+     [](const ScaledProof& p) { return JsonValue(p.figure.found * p.factor); }},
+    {"floor", "number", "what rounding alone may add to the bound",
+     [](const ScaledProof& p) { return JsonValue(p.figure.floor * p.factor); }},
+    {"v", "number", "where the bound is largest, along the trimline",
+     [](const ScaledProof& p) { return JsonValue(p.figure.v); }},
+    {"unproven", "text or null", "why the pair does not agree within 10 %; null: it agrees",
+     [](const ScaledProof& p) { return p.figure.agreed() ? JsonValue() : JsonValue(p.figure.unproven); }},
+};
+JsonValue proof(const ProvenFigure& figure, double factor = 1.0) {
+  return written<ScaledProof>({figure, factor}, proof_fields);
+}
+constexpr Field<SeamCertificate> certificate_fields[] = {
+    {"gap", "proof", "distance to the trimline, model units",
+     [](const SeamCertificate& c) { return proof(c.gap); }},
+    {"angle_deg", "proof", "angle between the tangent planes, degrees",
+     [](const SeamCertificate& c) { return proof(c.angle, per_degree); }},
+    {"curvature", "proof", "jump of the normal curvature, 1/model unit",
+     [](const SeamCertificate& c) { return proof(c.curvature); }},
+    {"pieces", "integer", "pieces of the trimline that were enclosed",
+     [](const SeamCertificate& c) { return JsonValue(c.pieces); }},
+};
+
 /// One side at one stage, and what it is held against.
 struct SideStage {
   const SeamReport& seam;
+  const SeamCertificate* proven;
   Continuity asked;
   const Tolerance& tolerance;
 };
@@ -82,6 +120,10 @@ constexpr Field<SideStage> side_fields[] = {
      [](const SideStage& s) { return written<Deviation>(s.seam.transverse, smallest_fields); }},
     {"folded", "integer", "places where the blend leaves on the kept side",
      [](const SideStage& s) { return JsonValue(s.seam.folded); }},
+    {"proven", "certificate or null", "bounds between the samples; null: not asked for",
+     [](const SideStage& s) {
+       return s.proven ? written<SeamCertificate>(*s.proven, certificate_fields) : JsonValue();
+     }},
 };
 
 constexpr Field<ClosingReport> closing_fields[] = {
@@ -109,7 +151,9 @@ struct Stage {
   LengthUnit unit;
 };
 JsonValue side(const Stage& s, std::size_t i) {
-  return written<SideStage>({s.report.seams[i], s.entry.sides[i].side.continuity, s.tolerance}, side_fields);
+  const SeamCertificate* const proven = s.report.proven ? &(*s.report.proven)[i] : nullptr;
+  return written<SideStage>({s.report.seams[i], proven, s.entry.sides[i].side.continuity, s.tolerance},
+                            side_fields);
 }
 JsonValue penetration(const Stage& s, std::size_t i) {
   const auto& p = s.report.penetration[i];
@@ -335,6 +379,8 @@ const std::vector<ObjectInfo>& report_objects() {
         object_info<Stage>("stage", "One blend as measured at one stage", stage_fields),
         object_info<SideStage>("side", "One trimline as measured", side_fields),
         object_info<Scaled>("deviation", "A deviation and its place", deviation_fields),
+        object_info<SeamCertificate>("certificate", "Proven bounds of one trimline", certificate_fields),
+        object_info<ScaledProof>("proof", "A figure as sampled and as proven", proof_fields),
         object_info<Deviation>("smallest", "A smallest value and its place", smallest_fields),
         object_info<Extreme>("extreme", "A value and its place on the blend", extreme_fields),
         object_info<ClosingReport>("closing", "Where a closed blend meets itself", closing_fields),

@@ -8,6 +8,10 @@ struct ZeroLine {
   [[nodiscard]] CurveJet<2> jet(double v) const {
     return {{Vec2(0.0, v), Vec2(0.0, 1.0), Vec2::Zero(), Vec2::Zero()}};
   }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    out.D[0][1] = v;
+    out.D[1][1] = 1.0;
+  }
   [[nodiscard]] CurveDomain domain() const { return range; }
 };
 
@@ -32,6 +36,16 @@ SurfacePartials BoundaryStrip::partials(UV p) const {
 SurfaceJet BoundaryStrip::jet(UV p) const {
   const SurfacePartials d = partials(p);
   return {d(0, 0), d(1, 0), d(0, 1), d(2, 0), d(1, 1), d(0, 2)};
+}
+
+void BoundaryStrip::enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
+  if (!u.is_zero() || !end_.enclosure) {
+    out.unproven = "the typed data are enclosed along their line only";
+    return;
+  }
+  const EndEnclosure data = end_.enclosure(v);
+  out = {data.C[0], data.T[0], data.C[1],    end_.continuity == Continuity::G2 ? data.D : ModelVector{},
+         data.T[1], data.C[2], data.unproven};
 }
 
 SurfaceDomain BoundaryStrip::domain() const {

@@ -15,6 +15,8 @@ class BoundaryStrip {
   [[nodiscard]] SurfaceJet jet(UV p) const;
   [[nodiscard]] SurfacePartials partials(UV p) const;
   [[nodiscard]] SurfaceDomain domain() const;
+  /// Along its line u = 0.
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const;
   /// The line u = 0 of the strip.
   [[nodiscard]] Curve2 line() const;
 

@@ -194,9 +194,11 @@ BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
   return {result.entry.name, surface, {seam(0), seam(1)}, result.blend.surface.domain().v_closed};
 }
 
-JobResult run_job(const JobSpec& job, const Progress& progress) {
+JobResult run_job(const JobSpec& job, const Progress& progress, const RunOptions& options) {
   JobResult result;
   result.job = job;
+  result.options = options;
+  const VerifyOptions checks{.certify = options.certify};
   result.warnings = unused_primaries(job);
   StopWatch watch;
   progress.at(0.0, "building the primaries");
@@ -222,8 +224,8 @@ JobResult run_job(const JobSpec& job, const Progress& progress) {
     refuse_crossings(result.blends, r);
     for (std::size_t s = 0; s < 2; ++s)
       if (r.blend.trimlines[s]) r.primaries[s] = r.blend.trimlines[s]->primary();
-    r.stages.push_back(verify_blend(under_test(r, r.blend.surface), "formula"));
-    r.stages.push_back(verify_blend(under_test(r, r.fit.surface), "fitted"));
+    r.stages.push_back(verify_blend(under_test(r, r.blend.surface), "formula", checks));
+    r.stages.push_back(verify_blend(under_test(r, r.fit.surface), "fitted", checks));
     verifying += watch.lap();
     result.blends.push_back(std::move(r));
   }

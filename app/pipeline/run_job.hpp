@@ -22,8 +22,13 @@ struct BlendResult {
   std::vector<BlendReport> stages;  ///< formula, fitted; write_outputs adds step
 };
 
+struct RunOptions {
+  bool certify = false;  ///< prove bounds between the samples at every stage
+};
+
 struct JobResult {
   JobSpec job;
+  RunOptions options{};
   std::vector<std::pair<std::string, Surface>> primaries;
   std::vector<BlendResult> blends;
   std::vector<std::string> warnings;
@@ -35,7 +40,8 @@ struct JobResult {
 
 /// Builds, fits and verifies every blend of the job, in memory. Throws InputError (JSON pointers, all
 /// problems at once), GeometryError prefixed with the pointer of the blend, ConvergenceError, Cancelled.
-[[nodiscard]] JobResult run_job(const JobSpec& job, const Progress& progress = {});
+[[nodiscard]] JobResult run_job(const JobSpec& job, const Progress& progress = {},
+                                const RunOptions& options = {});
 
 /// The surfaces that verify looks at, for a blend at the stage "formula" or "fitted" (or any surface read
 /// back).

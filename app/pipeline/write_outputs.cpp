@@ -24,7 +24,8 @@ void verify_step(JobResult& result, const StepContent& content) {
                                    [&](const StepFace& f) { return f.name == blend.entry.name; });
     if (face == content.faces.end())
       throw IoError("the STEP file read back has no face named \"" + blend.entry.name + "\"");
-    blend.stages.push_back(verify_blend(under_test(blend, face->surface), "step"));
+    blend.stages.push_back(
+        verify_blend(under_test(blend, face->surface), "step", {.certify = result.options.certify}));
   }
 }
 
@@ -168,8 +169,7 @@ JobOutputs write_outputs(JobResult& result, const WriteOptions& options, const P
       write_meshes(result, plan, meshes, staging, outputs);
       if (!plan.picture.empty()) write_pictures(result, plan, meshes, staging, outputs);
     }
-    result.times.push_back(
-        {"writing", watch.lap()});
+    result.times.push_back({"writing", watch.lap()});
     for (WrittenFile& file : outputs.files)
       file.bytes = static_cast<std::size_t>(fs::file_size(staging.of(file.path)));
     write_text_file(staging.of(plan.report), report_json(result, &outputs, options.times));

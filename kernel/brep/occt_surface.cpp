@@ -19,6 +19,7 @@
 #include "kernel/base/number_text.hpp"
 #include "kernel/brep/face_boundary.hpp"
 #include "kernel/brep/occt_geometry.hpp"
+#include "kernel/geometry/enclosure.hpp"
 
 namespace blendwright::detail {
 namespace {
@@ -72,6 +73,45 @@ std::optional<SurfacePartials> turned_partials(const handle<Geom_Surface>& geome
   return P;
 }
 
+using Jets = std::array<ModelJet, 3>;
+
+/// The same surfaces as jets of models, with a plane among them; empty for other geometry.
+std::optional<Jets> turned_jets(const handle<Geom_Surface>& geometry, const ModelJet& u, const ModelJet& v) {
+  gp_Ax3 axes;
+  ModelJet r, z(0.0);
+  if (const auto p = handle<Geom_Plane>::DownCast(geometry)) {
+    axes = p->Position();
+  } else if (const auto c = handle<Geom_CylindricalSurface>::DownCast(geometry)) {
+    axes = c->Position();
+    r = ModelJet(c->Radius());
+    z = v;
+  } else if (const auto k = handle<Geom_ConicalSurface>::DownCast(geometry)) {
+    axes = k->Position();
+    r = k->RefRadius() + v * std::sin(k->SemiAngle());
+    z = v * std::cos(k->SemiAngle());
+  } else if (const auto s = handle<Geom_SphericalSurface>::DownCast(geometry)) {
+    axes = s->Position();
+    r = s->Radius() * cos(v);
+    z = s->Radius() * sin(v);
+  } else if (const auto t = handle<Geom_ToroidalSurface>::DownCast(geometry)) {
+    axes = t->Position();
+    r = t->MajorRadius() + t->MinorRadius() * cos(v);
+    z = t->MinorRadius() * sin(v);
+  } else {
+    return std::nullopt;
+  }
+  const bool flat = geometry->IsKind(STANDARD_TYPE(Geom_Plane));
+  const ModelJet x = flat ? u : r * cos(u), y = flat ? v : r * sin(u);
+  const Vec3 O = vec(axes.Location()), X = vec(gp_Vec(axes.XDirection())), Y = vec(gp_Vec(axes.YDirection())),
+             Z = vec(gp_Vec(axes.Direction()));
+  Jets S;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto i = static_cast<Eigen::Index>(d);
+    S[d] = O[i] + X[i] * x + Y[i] * y + Z[i] * z;
+  }
+  return S;
+}
+
 std::string lengths(const char* label, double x) { return std::string(label) + number_text(x, 6); }
 
 }  // namespace
@@ -82,6 +122,22 @@ SurfaceJet OcctSurface::jet(UV p) const {
   const double sign = mirrored_ ? -1.0 : 1.0;
   geometry_->D2(p.u, sign * p.v, S, Su, Sv, Suu, Svv, Suv);
   return {vec(S), vec(Su), sign * vec(Sv), vec(Suu), sign * vec(Suv), vec(Svv)};
+}
+
+void OcctSurface::enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
+  const TaylorModel turned_v = mirrored_ ? -v : v;
+  const auto spline = handle<Geom_BSplineSurface>::DownCast(geometry_);
+  if (const auto S = turned_jets(geometry_, ModelJet::u_variable(u), ModelJet::v_variable(turned_v))) {
+    fill(out, *S);
+  } else if (const auto ours = spline ? from_occt(spline) : std::nullopt) {
+    ours->enclose(u, turned_v, out);
+  } else {
+    out.unproven = "a " + surface_kind(geometry_) + " surface of a STEP file has no enclosure";
+    return;
+  }
+  if (!mirrored_) return;
+  for (ModelVector* d : {&out.Sv, &out.Suv})
+    for (TaylorModel& x : *d) x = -x;
 }
 
 SurfacePartials OcctSurface::partials(UV p) const {

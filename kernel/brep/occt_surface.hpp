@@ -25,6 +25,8 @@ class OcctSurface {
   [[nodiscard]] SurfaceJet jet(UV p) const;
   [[nodiscard]] SurfacePartials partials(UV p) const;
   [[nodiscard]] SurfaceDomain domain() const { return box_; }
+  /// Of planes, cylinders, cones, spheres, tori and polynomial B-splines.
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const;
   [[nodiscard]] const opencascade::handle<Geom_Surface>& geometry() const { return geometry_; }
   [[nodiscard]] bool mirrored() const { return mirrored_; }
   [[nodiscard]] const std::shared_ptr<const FaceBoundary>& boundary() const { return boundary_; }

@@ -5,6 +5,7 @@
 
 #include "kernel/geometry/bspline.hpp"
 #include "kernel/geometry/curve.hpp"
+#include "kernel/geometry/enclosure.hpp"
 
 namespace blendwright::detail {
 
@@ -14,6 +15,13 @@ struct ParameterLine {
   CurveDomain box;
   [[nodiscard]] CurveJet<2> jet(double v) const {
     return {{start + rate * (v - box.v.lo), rate, Vec2::Zero(), Vec2::Zero()}};
+  }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    for (std::size_t d = 0; d < 2; ++d) {
+      const auto i = static_cast<Eigen::Index>(d);
+      out.D[0][d] = TaylorModel(start[i]) + rate[i] * (v - TaylorModel(box.v.lo));
+      out.D[1][d] = rate[i];
+    }
   }
   [[nodiscard]] CurveDomain domain() const { return box; }
 };
@@ -28,6 +36,14 @@ struct WindingSpline {
     j.D[0] += rate * (v - domain().v.lo);
     j.D[1] += rate;
     return j;
+  }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    spline.enclose(v, out);
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double slope = rate[static_cast<Eigen::Index>(d)];
+      out.D[0][d] = out.D[0][d] + slope * (v - TaylorModel(domain().v.lo));
+      out.D[1][d] = out.D[1][d] + TaylorModel(slope);
+    }
   }
   [[nodiscard]] CurveDomain domain() const { return spline.domain(); }
 };

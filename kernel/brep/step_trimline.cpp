@@ -197,6 +197,10 @@ struct MirroredPcurve {
     for (Vec2& d : j.D) d.y() = -d.y();
     return j;
   }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    if (!curve.enclose(v, out)) out.unproven = "the edge's curve has no enclosure";
+    for (ModelVector& d : out.D) d[1] = -d[1];
+  }
   [[nodiscard]] CurveDomain domain() const { return curve.domain(); }
 };
 

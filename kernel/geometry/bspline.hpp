@@ -45,6 +45,13 @@ class BSplineBasis {
   };
   [[nodiscard]] Local evaluate(double t, int order) const;  ///< order in [0, 4]
   [[nodiscard]] int index(int i) const { return periodic_ ? ((i % count_) + count_) % count_ : i; }
+  /// The 2 degree knots around span i of the breaks: knots [span - degree + 1, span + degree] of the flat
+  /// vector; the functions that do not vanish on it begin with index(first_function(i)).
+  [[nodiscard]] std::span<const double> span_knots(std::size_t i) const {
+    return std::span(flat_).subspan(static_cast<std::size_t>(span_[i] - degree_ + 1),
+                                    2 * static_cast<std::size_t>(degree_));
+  }
+  [[nodiscard]] int first_function(std::size_t i) const { return span_[i] - degree_; }
   /// Greville abscissae (means of `degree` knots), one per control value, wrapped into the domain of a
   /// periodic basis.
   [[nodiscard]] std::vector<double> greville() const;
@@ -66,6 +73,7 @@ class BSplineCurve {
   /// Throws InputError when the number of control points is not basis.count() or a coordinate is not finite.
   BSplineCurve(BSplineBasis basis, std::vector<Point> control);
   [[nodiscard]] CurveJet<Dim> jet(double v) const;
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const;
   [[nodiscard]] CurveDomain domain() const { return {basis_.domain(), basis_.periodic()}; }
   [[nodiscard]] const BSplineBasis& basis() const { return basis_; }
   [[nodiscard]] const std::vector<Point>& control() const { return control_; }
@@ -82,6 +90,7 @@ class BSplineSurface {
   [[nodiscard]] SurfaceJet jet(UV p) const;
   [[nodiscard]] SurfacePartials partials(UV p) const;
   [[nodiscard]] SurfaceDomain domain() const;
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const;
   [[nodiscard]] const BSplineBasis& basis_u() const { return basis_u_; }
   [[nodiscard]] const BSplineBasis& basis_v() const { return basis_v_; }
   [[nodiscard]] const std::vector<Vec3>& control() const { return control_; }

@@ -11,6 +11,9 @@
 
 namespace blendwright {
 
+class TaylorModel;
+struct CurveEnclosure;
+
 /// C(v) and its derivatives: D[k] = d^k C / dv^k, k = 0..3.
 template <int Dim>
 struct CurveJet {
@@ -40,13 +43,18 @@ class Curve {
  public:
   using Point = Eigen::Matrix<double, Dim, 1>;
   template <class T>
-    requires(!std::same_as<std::remove_cvref_t<T>, Curve> && ParametricCurve<std::remove_cvref_t<T>, Dim>)
-  Curve(T&& shape)  // NOLINT: any curve is a Curve
+  requires(!std::same_as<std::remove_cvref_t<T>, Curve> && ParametricCurve<std::remove_cvref_t<T>, Dim>)
+      Curve(T&& shape)  // NOLINT: any curve is a Curve
       : model_(std::make_shared<const Model<std::remove_cvref_t<T>>>(std::forward<T>(shape))) {}
 
   [[nodiscard]] CurveJet<Dim> jet(double v) const { return model_->jet(v); }
   [[nodiscard]] Point point(double v) const { return model_->jet(v).D[0]; }
   [[nodiscard]] CurveDomain domain() const { return model_->domain(); }
+  /// Encloses the curve over a piece of its parameter, see enclosure.hpp. False: the shape cannot say how it
+  /// runs between points.
+  [[nodiscard]] bool enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    return model_->enclose(v, out);
+  }
   /// The held shape when it is a T, else nullptr.
   template <class T>
   [[nodiscard]] const T* target() const {
@@ -59,12 +67,20 @@ class Curve {
     virtual ~Concept() = default;
     virtual CurveJet<Dim> jet(double v) const = 0;
     virtual CurveDomain domain() const = 0;
+    virtual bool enclose(const TaylorModel& v, CurveEnclosure& out) const = 0;
   };
   template <class T>
   struct Model final : Concept {
     explicit Model(T s) : shape(std::move(s)) {}
     CurveJet<Dim> jet(double v) const override { return shape.jet(v); }
     CurveDomain domain() const override { return shape.domain(); }
+    bool enclose(const TaylorModel& v, CurveEnclosure& out) const override {
+      if constexpr (requires { shape.enclose(v, out); }) {
+        shape.enclose(v, out);
+        return true;
+      }
+      return false;
+    }
     T shape;
   };
   std::shared_ptr<const Concept> model_;

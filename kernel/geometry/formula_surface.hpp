@@ -1,6 +1,7 @@
 #pragma once
 // Surfaces and curves given by templates over the number type: one body, exact derivatives of every order.
 #include "kernel/geometry/curve.hpp"
+#include "kernel/geometry/enclosure.hpp"
 #include "kernel/geometry/surface.hpp"
 #include "kernel/math/taylor.hpp"
 
@@ -27,6 +28,9 @@ class FormulaSurface {
     return P;
   }
   [[nodiscard]] SurfaceDomain domain() const { return shape_.domain(); }
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
+    fill(out, shape_(ModelJet::u_variable(u), ModelJet::v_variable(v)));
+  }
   [[nodiscard]] const Shape& shape() const { return shape_; }
 
  private:
@@ -48,6 +52,9 @@ class FormulaCurve {
     return j;
   }
   [[nodiscard]] CurveDomain domain() const { return shape_.domain(); }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    fill(out, shape_(ModelJet::u_variable(v)));
+  }
   [[nodiscard]] const Shape& shape() const { return shape_; }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/error.hpp"
+#include "kernel/geometry/enclosure.hpp"
 
 namespace blendwright {
 namespace {
@@ -50,6 +51,12 @@ SurfacePartials PlacedSurface::partials(UV p) const {
   for (Vec3& d : partials.d) d = (motion.R * d).eval();
   partials(0, 0) += motion.t;
   return partials;
+}
+
+void PlacedSurface::enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
+  if (!shape.enclose(u, v, out)) out.unproven = "its shape has no enclosure";
+  for (ModelVector* x : {&out.S, &out.Su, &out.Sv, &out.Suu, &out.Suv, &out.Svv}) *x = turned(motion.R, *x);
+  out.S = out.S + constant_model(motion.t);
 }
 
 Surface placed(const Surface& shape, const RigidMotion& motion) {

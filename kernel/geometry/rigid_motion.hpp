@@ -27,6 +27,7 @@ struct PlacedSurface {
   [[nodiscard]] SurfaceJet jet(UV p) const;
   [[nodiscard]] SurfacePartials partials(UV p) const;
   [[nodiscard]] SurfaceDomain domain() const { return shape.domain(); }
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const;
 };
 
 /// `shape` itself when the motion is the identity, else a PlacedSurface (placements of placements are

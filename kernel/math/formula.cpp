@@ -6,15 +6,23 @@
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/math/formula_program.hpp"
+#include "kernel/math/model_jet.hpp"
 
 namespace blendwright {
 namespace {
 
-double number_of(double x) { return x; }
+double smaller(double a, double b) { return b < a ? b : a; }
+double larger(double a, double b) { return b > a ? b : a; }
 template <TaylorSeries T>
-double number_of(const T& x) {
-  return x.value();
+T smaller(const T& a, const T& b) {
+  return b.value() < a.value() ? b : a;
 }
+template <TaylorSeries T>
+T larger(const T& a, const T& b) {
+  return b.value() > a.value() ? b : a;
+}
+ModelJet smaller(const ModelJet& a, const ModelJet& b) { return min(a, b); }
+ModelJet larger(const ModelJet& a, const ModelJet& b) { return max(a, b); }
 
 /// a^n by squaring: exact zeros of the derivatives at a = 0.
 template <class T>
@@ -82,9 +90,9 @@ T apply(const FormulaInstruction& instruction, const T& a, const T& b) {
     case FormulaOp::atan2:
       return atan2(a, b);
     case FormulaOp::min:
-      return number_of(b) < number_of(a) ? b : a;
+      return smaller(a, b);
     case FormulaOp::max:
-      return number_of(b) > number_of(a) ? b : a;
+      return larger(a, b);
   }
   return a;
 }
@@ -124,6 +132,7 @@ template double Formula::operator()(std::span<const double>) const;
 template Taylor<3> Formula::operator()(std::span<const Taylor<3>>) const;
 template Taylor2<2> Formula::operator()(std::span<const Taylor2<2>>) const;
 template Taylor2<4> Formula::operator()(std::span<const Taylor2<4>>) const;
+template ModelJet Formula::operator()(std::span<const ModelJet>) const;
 
 double constant_value(const std::string& text, const std::map<std::string, double>& constants) {
   return Formula(text, {}, constants)(std::span<const double>());

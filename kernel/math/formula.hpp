@@ -25,7 +25,8 @@ class Formula {
   Formula(std::string text, std::vector<std::string> variables,
           const std::map<std::string, double>& constants = {});
   /// `arguments` in the order of the variables; InputError when their number differs. Outside a function's
-  /// domain the result is NaN or infinite. T: double, Taylor<3>, Taylor2<2>, Taylor2<4>.
+  /// domain the result is NaN or infinite. T: double, Taylor<3>, Taylor2<2>, Taylor2<4>,
+  /// ModelJet.
   template <class T>
   [[nodiscard]] T operator()(std::span<const T> arguments) const;
   template <class T>

@@ -16,13 +16,17 @@ namespace blendwright {
 /// periodic.
 template <class T>
 T in_period(const T& t, const Interval& range, bool closed) {
-  double value = 0.0;
-  if constexpr (TaylorSeries<T>)
-    value = t.value();
-  else
-    value = t;
-  if (!closed || range.contains(value)) return t;
-  return t - range.length() * std::floor((value - range.lo) / range.length());
+  if constexpr (std::same_as<T, ModelJet>) {
+    return closed ? in_closed_range(t, range.lo, range.hi) : t;
+  } else {
+    double value = 0.0;
+    if constexpr (TaylorSeries<T>)
+      value = t.value();
+    else
+      value = t;
+    if (!closed || range.contains(value)) return t;
+    return t - range.length() * std::floor((value - range.lo) / range.length());
+  }
 }
 
 /// A curve of one formula per coordinate, each in one variable.
@@ -43,9 +47,23 @@ struct SplineProfile {
   BSplineCurve<static_cast<int>(Dim)> curve;
   template <class T>
   std::array<T, Dim> operator()(const T& t) const {
+    std::array<T, Dim> p;
+    if constexpr (std::same_as<T, ModelJet>) {
+      CurveEnclosure c;
+      curve.enclose(t.c[0], c);
+      for (std::size_t d = 0; d < Dim; ++d) p[d] = composed(c.D[0][d], c.D[1][d], 0.5 * c.D[2][d], t);
+      return p;
+    } else {
+      fill_series(t, p);
+      return p;
+    }
+  }
+
+ private:
+  template <class T>
+  void fill_series(const T& t, std::array<T, Dim>& p) const {
     const BSplineBasis& basis = curve.basis();
     const BSplineBasis::Local local = basis.evaluate(t.value(), T::order);
-    std::array<T, Dim> p;
     for (std::size_t d = 0; d < Dim; ++d) {
       std::array<double, T::order + 1> f{};  // f^(k) / k!
       double factorial = 1.0;
@@ -60,7 +78,6 @@ struct SplineProfile {
       }
       p[d] = compose_scalar(f, t);
     }
-    return p;
   }
 };
 

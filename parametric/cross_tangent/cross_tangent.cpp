@@ -45,6 +45,8 @@ class Pair {
     return ends;
   }
 
+  [[nodiscard]] EndEnclosure enclosed(std::size_t side, const TaylorModel& v) const;
+
   /// The last v of each thread is remembered: a blend asks both ends at the same v in turn.
   [[nodiscard]] EndSeries end(std::size_t side, double v) const {
     struct Last {
@@ -76,6 +78,36 @@ class Pair {
   Magnitudes magnitudes_;
   std::uint64_t id_ = next_id();
 };
+
+using Jets = std::array<ModelJet, 3>;
+
+Jets operator-(const Jets& a, const Jets& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Jets operator*(const ModelJet& s, const Jets& a) { return {s * a[0], s * a[1], s * a[2]}; }
+ModelJet dot(const Jets& a, const Jets& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+ModelVector coefficient(const Jets& a, std::size_t k, double factor = 1.0) {
+  return {factor * a[0].c[k], factor * a[1].c[k], factor * a[2].c[k]};
+}
+
+EndEnclosure Pair::enclosed(std::size_t i, const TaylorModel& v) const {
+  const std::array<SideEnclosure, 2> side{frames_[0].enclosed(v), frames_[1].enclosed(v)};
+  EndEnclosure end;
+  for (const SideEnclosure& s : side)
+    if (!s.unproven.empty()) end.unproven = s.unproven;
+  if (!end.unproven.empty()) return end;
+  const Jets De = side[1].C - side[0].C;
+  const ModelJet square = dot(De, De), over = pow(square, -0.5), chord = square * over;
+  const auto direction = [&](std::size_t k) {
+    return follows_chord(sides_[k]) ? over * De : side[k].direction;
+  };
+  const ModelJet cos_theta = dot(direction(0), direction(1));
+  const ModelJet m = magnitudes_.at(static_cast<int>(i), ModelJet::u_variable(v), chord, cos_theta);
+  const Jets T = m * direction(i);
+  end.C = {coefficient(side[i].C, 0), coefficient(side[i].C, 1), coefficient(side[i].C, 3, 2.0)};
+  end.T = {coefficient(T, 0), coefficient(T, 1)};
+  if (sides_[i].continuity == Continuity::G2)
+    end.D = (m.c[0] * m.c[0] * side[i].bend) * coefficient(side[i].normal, 0);  // (2)
+  return end;
+}
 
 void check_sides(const Sides& sides, bool closed) {
   std::vector<Problem> problems;
@@ -233,7 +265,8 @@ CrossTangents cross_tangents(const Correspondence& lines, const Sides& sides, do
       result.magnitude[i].push_back(magnitudes.at(static_cast<int>(i), samples[k]));
   const auto pair = std::make_shared<const Pair>(frames, sides, std::move(magnitudes));
   for (std::size_t i = 0; i < 2; ++i)
-    result.ends[i] = {domain, sides[i].continuity, [pair, i](double v) { return pair->end(i, v); }};
+    result.ends[i] = {domain, sides[i].continuity, [pair, i](double v) { return pair->end(i, v); },
+                      [pair, i](const TaylorModel& v) { return pair->enclosed(i, v); }};
   result.kept_left = {sign[0]<0.0, sign[1]> 0.0};
   return result;
 }

@@ -44,6 +44,10 @@ Series FactorLaw::operator()(const Series& v) const {
   return spline_ ? (*spline_)((v - domain_.v.lo) / domain_.v.length()) : Series(constant_);
 }
 
+ModelJet FactorLaw::operator()(const ModelJet& v) const {
+  return spline_ ? (*spline_)((v - domain_.v.lo) / domain_.v.length()) : ModelJet(constant_);
+}
+
 std::vector<Problem> check_law(const std::vector<LawPoint>& points, bool closed, const std::string& where) {
   std::vector<Problem> problems;
   if (points.empty()) problems.push_back({where, "is empty, must have at least one value"});

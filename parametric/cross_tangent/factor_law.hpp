@@ -18,6 +18,7 @@ class FactorLaw {
   FactorLaw(const std::vector<LawPoint>& points, CurveDomain domain);
   [[nodiscard]] double operator()(double v) const;
   [[nodiscard]] Series operator()(const Series& v) const;
+  [[nodiscard]] ModelJet operator()(const ModelJet& v) const;
 
  private:
   CurveDomain domain_;

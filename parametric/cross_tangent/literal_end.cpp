@@ -28,6 +28,13 @@ class Row {
     return {formulas_[0](argument), formulas_[1](argument), formulas_[2](argument)};
   }
 
+  [[nodiscard]] CurveEnclosure enclosed(const TaylorModel& v) const {
+    const std::vector<ModelJet> argument{ModelJet::u_variable(v)};
+    CurveEnclosure c;
+    fill(c, std::array<ModelJet, 3>{formulas_[0](argument), formulas_[1](argument), formulas_[2](argument)});
+    return c;
+  }
+
  private:
   std::vector<Formula> formulas_;
 };
@@ -44,6 +51,10 @@ EndCondition literal_end(const LiteralEnd& data, CurveDomain domain,
   if (!data.D.empty()) D.emplace("D", data.D, constants, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   EndCondition end{domain, D ? Continuity::G2 : Continuity::G1, {}};
+  end.enclosure = [C, T, D](const TaylorModel& v) {
+    const CurveEnclosure c = C.enclosed(v), t = T.enclosed(v);
+    return EndEnclosure{c.D, {t.D[0], t.D[1]}, D ? D->enclosed(v).D[0] : ModelVector{}, {}};
+  };
   end.series = [C = std::move(C), T = std::move(T), D = std::move(D)](double v) {
     return EndSeries{C(v), T(v), D ? (*D)(v) : constant(Vec3::Zero())};
   };

@@ -12,6 +12,7 @@ namespace {
 using blendwright::inverse_sqrt;  // of series, beside the one of numbers
 
 double inverse_sqrt(double x) { return 1.0 / std::sqrt(x); }
+ModelJet inverse_sqrt(const ModelJet& x) { return pow(x, -0.5); }
 
 template <class T>
 T circle_ratio(const T& cos_theta) {
@@ -125,6 +126,10 @@ Series Magnitudes::at(int side, double v, const Series& chord, const Series& cos
 
 double Magnitudes::at(int side, const PairSample& s) const {
   return evaluated(static_cast<std::size_t>(side), s.v, s.De.norm(), s.direction[0].dot(s.direction[1]));
+}
+
+ModelJet Magnitudes::at(int side, const ModelJet& v, const ModelJet& chord, const ModelJet& cos_theta) const {
+  return evaluated(static_cast<std::size_t>(side), v, chord, cos_theta);
 }
 
 }  // namespace blendwright

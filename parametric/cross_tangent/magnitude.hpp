@@ -29,6 +29,9 @@ class Magnitudes {
 
   [[nodiscard]] Series at(int side, double v, const Series& chord, const Series& cos_theta) const;
   [[nodiscard]] double at(int side, const PairSample& sample) const;
+  /// v, chord and cos_theta in the first variable of the jets.
+  [[nodiscard]] ModelJet at(int side, const ModelJet& v, const ModelJet& chord,
+                            const ModelJet& cos_theta) const;
 
  private:
   template <class T>

@@ -84,6 +84,63 @@ SideSeries SideFrame::evaluated(double v, bool with_bend) const {
 SideSeries SideFrame::first_order(double v) const { return evaluated(v, false); }
 SideSeries SideFrame::second_order(double v) const { return evaluated(v, true); }
 
+namespace {
+
+using Jets = std::array<ModelJet, 3>;
+
+/// Value and first derivative along v as jets; and half of the second where there is one.
+Jets jets_of(const ModelVector& f, const ModelVector& f1, const ModelVector& f2 = {}) {
+  Jets j;
+  for (std::size_t d = 0; d < 3; ++d) {
+    j[d].c[0] = f[d];
+    j[d].c[1] = f1[d];
+    j[d].c[3] = 0.5 * f2[d];
+  }
+  return j;
+}
+ModelJet dot(const Jets& a, const Jets& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Jets cross(const Jets& a, const Jets& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Jets operator*(const ModelJet& s, const Jets& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Jets normalized(const Jets& a) { return pow(dot(a, a), -0.5) * a; }
+ModelVector value(const Jets& a) { return {a[0].c[0], a[1].c[0], a[2].c[0]}; }
+
+}  // namespace
+
+SideEnclosure SideFrame::enclosed(const TaylorModel& v) const {
+  const CurveDomain domain = line_.domain();
+  SideEnclosure s;
+  if (!harmless_.empty()) {
+    s.unproven = "the cross tangent is continued over a degenerate point of the trimline";
+    return s;
+  }
+  CurveEnclosure uv;
+  SurfaceEnclosure P;
+  const TaylorModel inside = inside_range(v, domain.v.lo, domain.v.hi, domain.closed);
+  if (!line_.pcurve().enclose(inside, uv)) s.unproven = "the trimline's curve has no enclosure";
+  if (!line_.primary().enclose(uv.D[0][0], uv.D[0][1], P)) s.unproven = "the primary has no enclosure";
+  for (const std::string* why : {&uv.unproven, &P.unproven})
+    if (!why->empty()) s.unproven = *why;
+  if (!s.unproven.empty()) return s;
+  const TaylorModel &u1 = uv.D[1][0], &v1 = uv.D[1][1];
+  const ModelVector C1 = velocity(P, uv), C2 = acceleration(P, uv);
+  const Jets Pu = jets_of(P.Su, u1 * P.Suu + v1 * P.Suv), Pv = jets_of(P.Sv, u1 * P.Suv + v1 * P.Svv);
+  s.C = jets_of(P.S, C1, C2);
+  const Jets N = cross(Pu, Pv), tangent = normalized(jets_of(C1, C2));
+  const ModelJet over = pow(dot(N, N), -0.5);
+  s.normal = over * N;
+  s.direction = ModelJet(sign_ * cos_psi_) * cross(s.normal, tangent);
+  if (sin_psi_ != 0.0)
+    for (std::size_t d = 0; d < 3; ++d) s.direction[d] = s.direction[d] + sin_psi_ * tangent[d];
+  const ModelVector n = value(s.normal), t = value(s.direction);
+  const TaylorModel a = over.c[0] * blendwright::dot(t, blendwright::cross(P.Sv, n)),
+                    b = over.c[0] * blendwright::dot(t, blendwright::cross(n, P.Su));
+  s.bend = a * a * blendwright::dot(P.Suu, n) + 2.0 * (a * b * blendwright::dot(P.Suv, n)) +
+           b * b * blendwright::dot(P.Svv, n);
+  return s;
+}
+
 Vec3 SideFrame::direction(double v, const LinePoint& point) const {
   if (harmless_near(v) != nullptr) return derivative(first_order(v).direction, 0);
   const Vec3 tangent = point.C1.normalized();

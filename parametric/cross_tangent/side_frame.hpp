@@ -1,8 +1,10 @@
 #pragma once
 // One side of the blend along v: position, cross direction (1), and the primary's bend in that direction, as
 // exact series. Private to this module.
+#include <string>
 #include <vector>
 
+#include "kernel/geometry/enclosure.hpp"
 #include "parametric/trimline/line_point.hpp"
 
 namespace blendwright {
@@ -14,6 +16,14 @@ struct SideSeries {
   Series bend;        ///< II(direction, direction), 1/model unit; exact to order 2
 };
 
+/// The same over a piece of v: jets in v as their first variable, exact to order 2 in C, 1 in direction and
+/// normal, 0 in bend.
+struct SideEnclosure {
+  std::array<ModelJet, 3> C, direction, normal;
+  TaylorModel bend;
+  std::string unproven{};
+};
+
 class SideFrame {
  public:
   /// k = sign n x C'/|C'|. `harmless`: places where |C'| or |Su x Sv| vanishes but the limits from both sides
@@ -22,6 +32,7 @@ class SideFrame {
 
   [[nodiscard]] SideSeries first_order(double v) const;  ///< without the bend (and at half the cost)
   [[nodiscard]] SideSeries second_order(double v) const;
+  [[nodiscard]] SideEnclosure enclosed(const TaylorModel& v) const;
   [[nodiscard]] Series3 position(double v) const { return to_series<3>(line_.jet(v)); }
   /// Value of `direction`, from the line's point at v.
   [[nodiscard]] Vec3 direction(double v, const LinePoint& point) const;

@@ -240,6 +240,31 @@ SurfacePartials OdeBlend::partials(UV p) const {
   return P;
 }
 
+void OdeBlend::enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
+  const bool at_end = u.exact() && (u.centre() == 0.0 || u.centre() == 1.0);
+  if (!at_end) out.unproven = "a blend is enclosed along its ends only";
+  if (!ends_[0].enclosure || !ends_[1].enclosure) out.unproven = "the blend's data have no enclosure";
+  if (!out.unproven.empty()) return;
+  const std::size_t side = u.centre() == 0.0 ? 0 : 1;
+  const EndEnclosure end = ends_[side].enclosure(v);
+  out.unproven = end.unproven;
+  out.S = end.C[0];
+  out.Sv = end.C[1];
+  out.Svv = end.C[2];
+  out.Su = end.T[0];
+  out.Suv = end.T[1];
+  out.Suu = unknown_vector();
+  if (order_ == 4) return;
+  out.Suu = end.D;
+  if (ends_[side].continuity == Continuity::G2) return;
+  const EndEnclosure other = ends_[1 - side].enclosure(v);
+  if (!other.unproven.empty()) out.unproven = other.unproven;
+  const EndEnclosure &e0 = side == 0 ? end : other, &e1 = side == 0 ? other : end;
+  const std::array<const ModelVector*, 4> data{&e0.C[0], &e0.T[0], &e1.C[0], &e1.T[0]};
+  out.Suu = ModelVector{};
+  for (std::size_t k = 0; k < 4; ++k) out.Suu = out.Suu + TaylorModel(completion_[side][k]) * *data[k];
+}
+
 SurfaceDomain OdeBlend::domain() const {
   return {
       .u = {0.0, 1.0}, .v = ends_[0].domain.v, .v_closed = ends_[0].domain.closed && ends_[1].domain.closed};

@@ -57,6 +57,10 @@ class OdeBlend {
   [[nodiscard]] SurfacePartials partials(
       UV p) const;  ///< exact to order 2 in v and 3 in u; higher entries are 0
   [[nodiscard]] SurfaceDomain domain() const;
+  /// Along the ends u = 0 and u = 1 only, where the boundary data are met exactly: S = C, Su = T and, of
+  /// sixth order, Suu = D. Suu of the fourth order is left unbounded: the cardinal functions are not
+  /// enclosed.
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const;
   [[nodiscard]] const BlendShape& shape() const { return shape_; }
   [[nodiscard]] const EndCondition& end(int side) const { return ends_[static_cast<std::size_t>(side)]; }
   [[nodiscard]] int order() const { return order_; }  ///< 4 or 6

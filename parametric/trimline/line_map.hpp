@@ -13,6 +13,7 @@ struct FractionMap {
   double a = 0.0, b = 1.0;
   std::optional<ScalarSpline> p;  ///< periodic with period 1 on closed lines
   [[nodiscard]] Series operator()(const Series& x) const { return p ? a + b * x + (*p)(x) : a + b * x; }
+  [[nodiscard]] ModelJet operator()(const ModelJet& x) const { return p ? a + b * x + (*p)(x) : a + b * x; }
 };
 
 /// Fraction of the parameter range.
@@ -31,6 +32,9 @@ struct LineMap {
     Series x(c + d * v);
     x.c[1] = d;
     return to_jet(std::array<Series, 1>{fraction(x)});
+  }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    fill(out, std::array<ModelJet, 1>{fraction(c + d * ModelJet::u_variable(v))});
   }
   [[nodiscard]] CurveDomain domain() const { return range; }
 };

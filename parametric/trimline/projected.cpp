@@ -5,6 +5,7 @@
 
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
+#include "kernel/geometry/enclosure.hpp"
 #include "kernel/geometry/project.hpp"
 #include "parametric/trimline/along_curve.hpp"
 #include "parametric/trimline/line_point.hpp"
@@ -71,9 +72,25 @@ class FootEquations {
     return uv;
   }
 
+  /// The foot's curve over a piece of v, given the curve q there and the foot at the piece's middle. The
+  /// polynomial that solves the equations to the models' order is made first; then Krawczyk's operator proves
+  /// that for every v exactly one foot lies within a radius of it:
+  ///   |Y F(p)| + |1 - Y J(p +- r)| r <= r,   Y: approximate inverse of the Jacobian J (3)
+  /// Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2009, chapter 8.
+  void enclose(const CurveEnclosure& q, const Vec2& foot, CurveEnclosure& out) const;
+
   [[nodiscard]] const Surface& primary() const { return primary_; }
 
  private:
+  using Models2 = std::array<TaylorModel, 2>;
+  struct EnclosedFoot {
+    SurfaceEnclosure S;
+    Models2 F;                       ///< left sides of (1) or (2)
+    std::array<Models2, 2> J;        ///< their Jacobian
+    std::array<ModelVector, 2> row;  ///< what the curve is multiplied by in each equation
+  };
+  [[nodiscard]] EnclosedFoot enclosed_foot(const Models2& p, const CurveEnclosure& q) const;
+
   [[nodiscard]] Vec2 residual(const SurfaceJet& s, const Vec3& q) const {
     const Vec3 away = s.S - q;
     return along_direction_ ? Vec2(away.dot(e1_), away.dot(e2_)) : Vec2(away.dot(s.Su), away.dot(s.Sv));
@@ -100,6 +117,85 @@ class FootEquations {
   Vec3 e1_ = Vec3::Zero(), e2_ = Vec3::Zero();
 };
 
+FootEquations::EnclosedFoot FootEquations::enclosed_foot(const Models2& p, const CurveEnclosure& q) const {
+  EnclosedFoot e;
+  if (!primary_.enclose(p[0], p[1], e.S)) e.S.unproven = "the primary has no enclosure";
+  const SurfaceEnclosure& S = e.S;
+  const ModelVector away = S.S - q.D[0];
+  if (along_direction_)
+    e.row = {constant_model(e1_), constant_model(e2_)};
+  else
+    e.row = {S.Su, S.Sv};
+  for (std::size_t i = 0; i < 2; ++i) {
+    e.F[i] = dot(away, e.row[i]);
+    e.J[i] = {dot(S.Su, e.row[i]), dot(S.Sv, e.row[i])};
+  }
+  if (along_direction_) return e;
+  const TaylorModel mixed = dot(away, S.Suv);
+  e.J[0][0] = e.J[0][0] + dot(away, S.Suu);
+  e.J[0][1] = e.J[0][1] + mixed;
+  e.J[1][0] = e.J[1][0] + mixed;
+  e.J[1][1] = e.J[1][1] + dot(away, S.Svv);
+  return e;
+}
+
+void FootEquations::enclose(const CurveEnclosure& q, const Vec2& foot, CurveEnclosure& out) const {
+  out.D.fill(unknown_vector());
+  Vec3 at;
+  for (std::size_t d = 0; d < 3; ++d) at[static_cast<Eigen::Index>(d)] = q.D[0][d].centre();
+  const auto Y = inverse_jacobian(primary_.jet({foot[0], foot[1]}), at);
+  if (!Y) return;
+  const auto corrected = [&](const Models2& F, std::size_t i) {
+    const auto r = static_cast<Eigen::Index>(i);
+    return (*Y)(r, 0) * F[0] + (*Y)(r, 1) * F[1];
+  };
+  Models2 p{foot[0], foot[1]};
+  for (int step = 0; step <= TaylorModel::order; ++step) {
+    const EnclosedFoot e = enclosed_foot(p, q);
+    if (!e.S.unproven.empty()) {
+      out.unproven = e.S.unproven;
+      return;
+    }
+    for (std::size_t i = 0; i < 2; ++i) p[i] = (p[i] - corrected(e.F, i)).with_radius(0.0);
+  }
+  const Models2 F = enclosed_foot(p, q).F;
+  std::array<double, 2> miss{}, radius{}, reached{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    miss[i] = corrected(F, i).range().magnitude();
+    radius[i] = 3.0 * miss[i] + 1e-15 * p[i].range().magnitude();
+  }
+  const EnclosedFoot wide = enclosed_foot({p[0].with_radius(radius[0]), p[1].with_radius(radius[1])}, q);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Bounds sum(miss[i]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const TaylorModel product = corrected({wide.J[0][k], wide.J[1][k]}, i);
+      const Bounds off = Bounds(i == k ? 1.0 : 0.0) - product.range();
+      sum = sum + Bounds(off.magnitude()) * Bounds(radius[k]);
+    }
+    reached[i] = sum.hi;
+    if (!(reached[i] <= radius[i])) return;  // (3) does not hold: a smaller piece may do
+    p[i] = p[i].with_radius(radius[i]);
+  }
+  const EnclosedFoot e = enclosed_foot(p, q);
+  const TaylorModel over = inverse(e.J[0][0] * e.J[1][1] - e.J[0][1] * e.J[1][0]);
+  const auto solved = [&](const Models2& right) {
+    return Models2{over * (e.J[1][1] * right[0] - e.J[0][1] * right[1]),
+                   over * (e.J[0][0] * right[1] - e.J[1][0] * right[0])};
+  };
+  const auto set = [&](std::size_t k, const Models2& x) {
+    out.D[k][0] = x[0];
+    out.D[k][1] = x[1];
+  };
+  set(0, p);
+  const Models2 p1 = solved({dot(q.D[1], e.row[0]), dot(q.D[1], e.row[1])});
+  set(1, p1);
+  if (!along_direction_) return;  // the second derivative of (1) needs third derivatives of the primary
+  const ModelVector bend =
+      (p1[0] * p1[0]) * e.S.Suu + (2.0 * (p1[0] * p1[1])) * e.S.Suv + (p1[1] * p1[1]) * e.S.Svv;
+  const ModelVector rest = q.D[2] - bend;
+  set(2, solved({dot(rest, e.row[0]), dot(rest, e.row[1])}));
+}
+
 Vec2 evaluate(const Series2& s, double h) {
   const auto horner = [h](const Series& a) { return a.c[0] + h * (a.c[1] + h * (a.c[2] + h * a.c[3])); };
   return {horner(s[0]), horner(s[1])};
@@ -114,11 +210,29 @@ struct ProjectedCurve {
   Vec2 turn = Vec2::Zero();    ///< advance per period of a closed curve
 
   [[nodiscard]] CurveDomain domain() const { return range; }
+  [[nodiscard]] Vec2 guess_at(double inside) const {
+    const double step = range.v.length() / spans;
+    const double node = std::min(std::max(std::round((inside - range.v.lo) / step), 0.0), double{spans});
+    return evaluate(table[static_cast<std::size_t>(node)], inside - range.v.at(node / spans));
+  }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    double turns = 0.0;
+    const TaylorModel inside = inside_range(v, range.v.lo, range.v.hi, range.closed, &turns);
+    CurveEnclosure q;
+    out.D.fill(unknown_vector());
+    if (!curve.enclose(inside, q)) q.unproven = "the projected curve has no enclosure";
+    out.unproven = q.unproven;
+    if (!out.unproven.empty() || !inside.finite()) return;
+    const Vec2 guess = guess_at(inside.centre());
+    const std::optional<Vec2> foot = equations.foot(curve.point(inside.centre()), guess);
+    if (!foot) return;
+    equations.enclose(q, *foot, out);
+    for (std::size_t d = 0; d < 2; ++d)
+      out.D[0][d] = out.D[0][d] + TaylorModel(Bounds(turns) * Bounds(turn[static_cast<Eigen::Index>(d)]));
+  }
   [[nodiscard]] CurveJet<2> jet(double v) const {
     const Wrapped w = wrapped(range, v);
-    const double step = range.v.length() / spans;
-    const double node = std::min(std::max(std::round((w.inside - range.v.lo) / step), 0.0), double{spans});
-    const Vec2 guess = evaluate(table[static_cast<std::size_t>(node)], w.inside - range.v.at(node / spans));
+    const Vec2 guess = guess_at(w.inside);
     const Series3 q = to_series<3>(curve.jet(w.inside));
     // The table was followed at construction, so Newton converges; past the end of an open range the
     // polynomial continues where the foot is lost.

@@ -111,4 +111,27 @@ Series ScalarSpline::operator()(const Series& t) const {
   return compose_scalar(f, t);
 }
 
+ModelJet ScalarSpline::operator()(const ModelJet& t) const {
+  constexpr std::size_t most_pieces = 4;
+  const double lo = breaks_.front(), hi = breaks_.back();
+  const TaylorModel inside = inside_range(t.c[0], lo, hi, closed_);
+  const Bounds range = inside.range();
+  if (!range.finite()) return unknown_jet();
+  ModelJet result = unknown_jet();
+  std::size_t pieces = 0;
+  for (std::size_t span = 0; span < polynomials_.size(); ++span) {
+    const bool first = span == 0, last = span + 1 == polynomials_.size();
+    if ((range.hi < breaks_[span] && !first) || (range.lo > breaks_[span + 1] && !last)) continue;
+    ModelJet x = t;
+    x.c[0] = inside;
+    x = (x - breaks_[span]) / ModelJet(TaylorModel(Bounds(breaks_[span + 1]) - Bounds(breaks_[span])));
+    ModelJet f(polynomials_[span][degree]);
+    for (std::size_t k = degree; k-- > 0;) f = f * x + polynomials_[span][k];
+    if (++pieces > most_pieces) return unknown_jet();
+    for (std::size_t k = 0; k < f.c.size(); ++k)
+      result.c[k] = pieces == 1 ? f.c[k] : TaylorModel::hull(result.c[k], f.c[k]);
+  }
+  return result;
+}
+
 }  // namespace blendwright

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/geometry/bspline.hpp"
+#include "kernel/geometry/enclosure.hpp"
 #include "kernel/geometry/series.hpp"
 
 namespace blendwright {
@@ -23,6 +24,8 @@ class ScalarSpline {
 
   [[nodiscard]] double operator()(double t) const;
   [[nodiscard]] Series operator()(const Series& t) const;
+  /// Encloses the polynomial pieces over the range of t; unbounded where they are more than four.
+  [[nodiscard]] ModelJet operator()(const ModelJet& t) const;
 
  private:
   ScalarSpline(const BSplineBasis& basis, const std::vector<double>& control);

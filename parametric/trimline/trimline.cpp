@@ -4,6 +4,7 @@
 
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
+#include "kernel/geometry/enclosure.hpp"
 #include "kernel/math/quadrature.hpp"
 #include "parametric/trimline/line_point.hpp"
 
@@ -68,6 +69,12 @@ struct IsoCurve {
     if (direction == IsoDirection::constant_u) return {{Vec2(value, v), Vec2(0.0, 1.0), zero, zero}};
     return {{Vec2(v, value), Vec2(1.0, 0.0), zero, zero}};
   }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    const std::size_t running = direction == IsoDirection::constant_u ? 1 : 0;
+    out.D[0][running] = v;
+    out.D[0][1 - running] = value;
+    out.D[1][running] = 1.0;
+  }
   [[nodiscard]] CurveDomain domain() const { return range; }
 };
 
@@ -85,6 +92,21 @@ struct ReparametrisedCurve {
     // Chain rule to order 3 (Faa di Bruno).
     return {{p.C() + w.turns * turn, a * p.C1(), b * p.C1() + a * a * p.C2(),
              c * p.C1() + 3.0 * a * b * p.C2() + a * a * a * p.C3()}};
+  }
+  void enclose(const TaylorModel& v, CurveEnclosure& out) const {
+    const CurveDomain old = pcurve.domain();
+    CurveEnclosure m, p;
+    if (!map.enclose(v, m)) m.unproven = "the parameter's map has no enclosure";
+    double turns = 0.0;
+    const TaylorModel inside = inside_range(m.D[0][0], old.v.lo, old.v.hi, old.closed, &turns);
+    if (!pcurve.enclose(inside, p)) p.unproven = "the trimline's curve has no enclosure";
+    out.unproven = m.unproven.empty() ? p.unproven : m.unproven;
+    const TaylorModel &a = m.D[1][0], &b = m.D[2][0];
+    for (std::size_t d = 0; d < 2; ++d) {
+      out.D[0][d] = p.D[0][d] + TaylorModel(Bounds(turns) * Bounds(turn[static_cast<Eigen::Index>(d)]));
+      out.D[1][d] = a * p.D[1][d];
+      out.D[2][d] = b * p.D[1][d] + (a * a) * p.D[2][d];
+    }
   }
   [[nodiscard]] CurveDomain domain() const { return range; }
 };

@@ -52,6 +52,9 @@ BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, 
   report.stage = stage;
   report.size = size_of(blend.blend);
   report.seams = detail::check_paired_seams(blend.seams, options.seam, part(progress, 0, 2));
+  if (options.certify)
+    report.proven = {certify_seam(blend.seams[0], report.seams[0]),
+                     certify_seam(blend.seams[1], report.seams[1])};
   if (blend.closed) report.closing = check_closing(blend.blend);
   report.surface_checked = options.surface_checks;
   if (options.surface_checks) check_surface(blend, options, report);

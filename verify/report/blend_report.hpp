@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "verify/certify/certificate.hpp"
 #include "verify/continuity/seam.hpp"
 #include "verify/surface/surface_checks.hpp"
 
@@ -25,8 +26,9 @@ struct BlendReport {
   double size =
       0.0;  ///< of the blend: longest side of a box around it; places are told to a thousandth of it
   std::array<SeamReport, 2> seams;
-  std::optional<ClosingReport> closing;  ///< closed blends
-  bool surface_checked = true;           ///< false: the four below were not asked for and are empty
+  std::optional<std::array<SeamCertificate, 2>> proven{};  ///< bounds between the samples, when asked for
+  std::optional<ClosingReport> closing;                    ///< closed blends
+  bool surface_checked = true;  ///< false: the four below were not asked for and are empty
   FoldReport fold;
   Extreme minimum_radius;
   std::array<std::optional<PenetrationReport>, 2> penetration;  ///< per side that has a primary
@@ -34,7 +36,8 @@ struct BlendReport {
 };
 
 struct VerifyOptions {
-  SeamOptions seam;
+  SeamOptions seam{};
+  bool certify = false;        ///< prove bounds of both seams
   bool surface_checks = true;  ///< fold, radius, penetration, self-intersection
   int nu = 32,
       nv = 128;  ///< cells of the grid that the surface checks share; penetration uses every second line

@@ -14,6 +14,7 @@ struct Case {
   const BlendReport& report;
   const std::array<Continuity, 2>& asked;
   const Tolerance& tolerance;
+  LengthUnit unit;
   std::string length, curvature;  ///< units
   std::string_view check;
   std::vector<Finding>& findings;
@@ -80,6 +81,14 @@ void judge_angle(const Case& c) {
 void judge_curvature(const Case& c) {
   judge_deviation(c, &SeamReport::curvature, "curvature jump", Continuity::G2, c.tolerance.curvature, 1.0,
                   c.curvature);
+}
+
+void judge_proven(const Case& c) {
+  if (!c.report.proven) return;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::string text = shortfall((*c.report.proven)[side], c.asked[side], c.tolerance, c.unit);
+    if (!text.empty()) c.add((*c.report.proven)[side].name + ": " + text, true);
+  }
 }
 
 void judge_fold(const Case& c) {
@@ -192,10 +201,13 @@ struct Check {
   CheckInfo info;
   void (*run)(const Case&);
 };
-constexpr std::array<Check, 10> checks{{
+constexpr std::array<Check, 11> checks{{
     {{"gap", "distance of the blend's edge from the trimline and from the primary; from G0 on"}, judge_gap},
     {{"angle", "angle between the tangent planes of blend and primary; from G1 on"}, judge_angle},
     {{"curvature jump", "difference of the normal curvatures across the trimline; G2"}, judge_curvature},
+    {{"proven bounds",
+      "what was asked for is not proven between the samples; only when bounds were asked for"},
+     judge_proven},
     {{"fold", "the blend leaves the trimline back over the kept part (from G1 on), or its normal turns over"},
      judge_fold},
     {{"transversality", "the blend leaves the trimline almost along it: sine below 0.1; a warning"},
@@ -216,7 +228,7 @@ std::vector<Finding> judge(const BlendReport& report, const std::array<Continuit
   std::vector<Finding> findings;
   const std::string length = name(unit);
   for (const Check& check : checks)
-    check.run({report, asked, tolerance, length, "1/" + length, check.info.name, findings});
+    check.run({report, asked, tolerance, unit, length, "1/" + length, check.info.name, findings});
   return findings;
 }
 

@@ -1,0 +1,233 @@
+#include "verify/certify/certificate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kernel/base/number_text.hpp"
+#include "kernel/base/parallel_for.hpp"
+#include "kernel/geometry/bspline.hpp"
+#include "verify/certify/seam_piece.hpp"
+
+namespace blendwright {
+namespace {
+
+using detail::SeamPiece;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double narrowest = 0x1p-32;  // piece, relative to the domain
+
+struct Figure {
+  Bounds SeamPiece::*bounds;
+  ProvenFigure SeamCertificate::*result;
+  Deviation SeamReport::*sampled;
+  const char* name;
+};
+constexpr std::array<Figure, 3> figures{
+    {{&SeamPiece::gap, &SeamCertificate::gap, &SeamReport::gap, "gap"},
+     {&SeamPiece::angle, &SeamCertificate::angle, &SeamReport::angle, "angle"},
+     {&SeamPiece::curvature, &SeamCertificate::curvature, &SeamReport::curvature, "curvature jump"}}};
+
+/// Where the blend is one polynomial; equal steps where it is none.
+std::vector<Interval> first_pieces(const Seam& seam) {
+  constexpr int steps = 64;
+  const Interval domain = seam.blend.domain().v;
+  std::vector<double> at;
+  if (const auto* spline = seam.blend.target<BSplineSurface>()) {
+    at = spline->basis_v().breaks();
+  } else {
+    for (int i = 0; i < steps; ++i) at.push_back(domain.at(static_cast<double>(i) / steps));
+    at.push_back(domain.hi);
+  }
+  std::vector<Interval> pieces;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) pieces.push_back({at[i], at[i + 1]});
+  return pieces;
+}
+
+void enclose_all(const Seam& seam, std::vector<SeamPiece>& pieces, std::size_t from) {
+  parallel_for(pieces.size() - from, 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = from + begin; i < from + end; ++i)
+      pieces[i] = detail::enclosed_piece(seam, pieces[i].v);
+  });
+}
+
+/// (4) of every figure: at ends of pieces, where splines have their knots and round most, and in the middles.
+void set_floors(const Seam& seam, const std::vector<SeamPiece>& pieces, SeamCertificate& certificate) {
+  const std::size_t places = std::min<std::size_t>(32, pieces.size());
+  std::vector<SeamPiece> points;
+  for (std::size_t i = 0; i < places; ++i) {
+    const Interval& v = pieces[i * pieces.size() / places].v;
+    for (const double at : {v.lo, v.middle()}) points.push_back({.v = {at, at}});
+  }
+  enclose_all(seam, points, 0);
+  for (const Figure& f : figures) {
+    double& floor = (certificate.*f.result).floor;
+    for (const SeamPiece& p : points) {
+      const double width = (p.*f.bounds).hi - (p.*f.bounds).lo;
+      if (std::isfinite(width)) floor = std::max(floor, 4.0 * width);
+    }
+  }
+}
+
+/// Largest bound and its place; the largest value known to occur.
+void measure(const std::vector<SeamPiece>& pieces, const Figure& f, ProvenFigure& figure) {
+  figure.proven = 0.0;
+  for (const SeamPiece& p : pieces) {
+    const Bounds& b = p.*f.bounds;
+    figure.found = std::max(figure.found, b.lo);
+    if (!(b.hi > figure.proven)) continue;
+    figure.proven = b.hi;
+    figure.v = p.v.middle();
+  }
+}
+
+double target(const ProvenFigure& figure, double ratio) {
+  const double sampled = std::isfinite(figure.sampled) ? figure.sampled : 0.0;
+  return ratio * std::max(sampled, figure.found) + figure.floor;
+}
+
+/// A figure that is unbounded everywhere has no enclosure; halving would not help.
+bool nowhere_bounded(const std::vector<SeamPiece>& pieces, const Figure& f) {
+  return std::none_of(pieces.begin(), pieces.end(),
+                      [&](const SeamPiece& p) { return std::isfinite((p.*f.bounds).hi); });
+}
+
+std::string place(double v) { return " at v = " + number_text(v, 6); }
+
+struct Search {
+  const Seam& seam;
+  const CertifyOptions& options;
+  SeamCertificate& certificate;
+  std::vector<SeamPiece> pieces{};
+  std::array<bool, figures.size()> open{};          ///< figures that may still come to agree
+  std::array<std::size_t, figures.size()> spent{};  ///< pieces made for each, of its share of the work
+
+  void measure_all() {
+    for (const Figure& f : figures) measure(pieces, f, certificate.*f.result);
+  }
+  /// Whether figure k wants this piece halved.
+  [[nodiscard]] bool too_wide(const SeamPiece& p, std::size_t k) const {
+    return open[k] && (p.*figures[k].bounds).hi > target(certificate.*figures[k].result, options.ratio);
+  }
+  /// Halves every piece that is too wide; false when there is none. A figure that is too wide on the
+  /// narrowest piece, or has spent its share, is given up.
+  [[nodiscard]] bool halve() {
+    const double least = narrowest * seam.blend.domain().v.length();
+    for (std::size_t k = 0; k < figures.size(); ++k)
+      open[k] = open[k] && 2 * spent[k] < options.max_pieces &&
+                std::none_of(pieces.begin(), pieces.end(),
+                             [&](const SeamPiece& p) { return p.v.length() <= least && too_wide(p, k); });
+    std::vector<SeamPiece> kept, halves;
+    for (SeamPiece& p : pieces) {
+      bool split = false;
+      for (std::size_t k = 0; k < figures.size(); ++k) {
+        if (!too_wide(p, k)) continue;
+        split = true;
+        spent[k] += 2;
+      }
+      if (!split) {
+        kept.push_back(std::move(p));
+        continue;
+      }
+      const double middle = p.v.middle();
+      halves.push_back({.v = {p.v.lo, middle}});
+      halves.push_back({.v = {middle, p.v.hi}});
+    }
+    const std::size_t old = kept.size();
+    certificate.pieces += halves.size();
+    kept.insert(kept.end(), halves.begin(), halves.end());
+    pieces = std::move(kept);
+    enclose_all(seam, pieces, old);
+    return !halves.empty();
+  }
+};
+
+void conclude(ProvenFigure& figure, const Figure& f, const CertifyOptions& options) {
+  if (std::isnan(figure.sampled))
+    figure.unproven = "the samples are not numbers";
+  else if (!std::isfinite(figure.proven))
+    figure.unproven = std::string("no bound of the ") + f.name + place(figure.v);
+  else if (!(figure.proven <= target(figure, options.ratio)))
+    figure.unproven =
+        "the bound stays above " + number_text(options.ratio, 3) + " times what is known to occur" +
+        place(figure.v) +
+        (figure.proven > 1.5 && f.result == &SeamCertificate::angle ? ": no normal is certain there" : "");
+  else if (figure.found > options.ratio * figure.sampled + figure.floor)
+    figure.unproven = "between the samples, at least " + scientific_text(figure.found) + place(figure.v);
+}
+
+void refuse(SeamCertificate& certificate, const std::string& why) {
+  for (const Figure& f : figures) {
+    (certificate.*f.result).proven = infinity;
+    (certificate.*f.result).unproven = why;
+  }
+}
+
+}  // namespace
+
+SeamCertificate certify_seam(const Seam& seam, const SeamReport& sampled, const CertifyOptions& options) {
+  SeamCertificate c;
+  c.name = seam.name;
+  c.measured = seam.primary.has_value();
+  for (const Figure& f : figures) (c.*f.result).sampled = (sampled.*f.sampled).worst;
+  if (!c.measured || !seam.pcurve) {
+    refuse(c, c.measured ? "the seam has no trimline of its primary" : "the side has no primary");
+    return c;
+  }
+  Search search{seam, options, c};
+  for (const Interval& v : first_pieces(seam)) search.pieces.push_back({.v = v});
+  c.pieces = search.pieces.size();
+  enclose_all(seam, search.pieces, 0);
+  for (const SeamPiece& p : search.pieces)
+    if (!p.unproven.empty()) {
+      refuse(c, p.unproven);
+      return c;
+    }
+  std::array<bool, figures.size()> bounded{};
+  for (std::size_t k = 0; k < figures.size(); ++k)
+    bounded[k] = search.open[k] = !nowhere_bounded(search.pieces, figures[k]);
+  set_floors(seam, search.pieces, c);
+  do search.measure_all();
+  while (search.halve());
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    conclude(c.*figures[k].result, figures[k], options);
+    if (!bounded[k])
+      (c.*figures[k].result).unproven =
+          std::string("the surfaces have no enclosure of what the ") + figures[k].name + " needs";
+  }
+  return c;
+}
+
+std::string shortfall(const SeamCertificate& c, Continuity asked, const Tolerance& tolerance,
+                      LengthUnit unit) {
+  if (!c.measured) return {};
+  const double degree = Radians(1.0).degrees();
+  struct Row {
+    const ProvenFigure& figure;
+    const char* name;
+    double limit, factor;
+    std::string unit;
+    Continuity least;
+  };
+  const std::string length = name(unit);
+  const std::array<Row, 3> rows{
+      {{c.gap, "gap", tolerance.position, 1.0, length, Continuity::G0},
+       {c.angle, "angle", tolerance.angle.value, degree, "deg", Continuity::G1},
+       {c.curvature, "curvature jump", tolerance.curvature, 1.0, "1/" + length, Continuity::G2}}};
+  std::string text;
+  for (const Row& r : rows) {
+    if (asked < r.least || (r.figure.proven <= r.limit && r.figure.agreed())) continue;
+    const std::string bound = std::isfinite(r.figure.proven)
+                                  ? " at most " + number_text(r.figure.proven * r.factor, 3) + " " + r.unit
+                                  : std::string();
+    text += (text.empty() ? "" : "; ") + std::string(r.name);
+    text += r.figure.agreed()
+                ? " proven" + bound + ", more than " + number_text(r.limit * r.factor, 3) + " " + r.unit
+                : " unproven" + bound + ": " + r.figure.unproven;
+  }
+  return text;
+}
+
+}  // namespace blendwright
