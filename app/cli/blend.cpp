@@ -25,7 +25,7 @@ int blend(const BlendCommand& command, const Console& console) {
     if (command.threads) limit.emplace(*command.threads);
     JobSpec job = read_job_file(command.job);
     if (!command.formats.empty()) job.output.formats = formats_named(command.formats);
-    JobResult result = run_job(job, run.progress());
+    JobResult result = run_job(job, run.progress(), {.certify = command.certify});
     const JobOutputs outputs =
         write_outputs(result, {.folder = command.folder, .overwrite = command.force, .times = command.times},
                       run.progress());

@@ -77,6 +77,11 @@ void add_threads(CLI::App* sub, std::optional<int>& threads) {
                   CLI::Range(1, 1024));
 }
 
+void add_certify(CLI::App* sub, bool& certify) {
+  sub->add_flag("--certify", certify,
+                "prove bounds of gap, angle and curvature jump between the samples; what is not proven fails");
+}
+
 void add_blend(CLI::App& app, BlendCommand& command, const Console& console, int& code) {
   std::vector<std::string> formats;
   for (const auto& c : format_choices()) formats.emplace_back(c.name);
@@ -93,6 +98,7 @@ void add_blend(CLI::App& app, BlendCommand& command, const Console& console, int
       ->delimiter(',')
       ->check(CLI::IsMember(formats));
   sub->add_flag("--force", command.force, "replace files that exist");
+  add_certify(sub, command.certify);
   add_json(sub, command.json, command.times);
   sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
   add_threads(sub, command.threads);
@@ -107,6 +113,7 @@ void add_verify(CLI::App& app, VerifyCommand& command, const Console& console, i
                   positive());
   optional_number(sub, "--tol-curvature", command.curvature, "largest jump of normal curvature, 1/model unit",
                   positive());
+  add_certify(sub, command.certify);
   add_json(sub, command.json, command.times);
   sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
   add_threads(sub, command.threads);

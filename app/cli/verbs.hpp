@@ -21,6 +21,7 @@ struct BlendCommand {
   std::string folder = "out";
   std::vector<std::string> formats;  ///< words of the format family; empty: as the job says
   bool force = false, json = false, times = false, quiet = false;
+  bool certify = false;  ///< prove bounds between the samples
   std::optional<int> threads;
 };
 /// Builds, writes and verifies.
@@ -30,6 +31,7 @@ struct VerifyCommand {
   std::string job;
   std::optional<double> position, angle_deg, curvature;  ///< instead of the job's tolerances
   bool json = false, times = false, quiet = false;
+  bool certify = false;  ///< prove bounds between the samples
   std::optional<int> threads;
 };
 /// Builds and verifies in memory.

@@ -14,7 +14,7 @@ int verify(const VerifyCommand& command, const Console& console) {
     if (command.position) job.tolerance.position = *command.position;
     if (command.angle_deg) job.tolerance.angle = degrees(*command.angle_deg);
     if (command.curvature) job.tolerance.curvature = *command.curvature;
-    const JobResult result = run_job(job, run.progress());
+    const JobResult result = run_job(job, run.progress(), {.certify = command.certify});
     run.clear();
     if (!command.quiet)
       for (const std::string& w : result.warnings) console.warn(w);
