@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
+#include "implicit/operators/function_bounds.hpp"
 #include "implicit/operators/range_rules.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/distance_operation.cpp"
@@ -102,6 +104,19 @@ static Range dilation_range(const void* body, const Box&, std::span<const Range>
   const double n = static_cast<const Dilation*>(body)->n.exponent;
   return spread_positive(ends(op_for<Dilation>(), body, args, {true}), range_slack * (1.0 + 1.0 / n));
 }
+/// Concave where no argument is negative.
+static LinearBound dilation_linear(const void* body, const LinearInput& in) {
+  const double n = static_cast<const Dilation*>(body)->n.exponent;
+  const LinearBound inner[] = {recentred(in.args[0], in.ranges[0]), recentred(in.args[1], in.ranges[1])};
+  LinearInput part = in;
+  part.args = inner;
+  const Middle middle(part);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!middle.usable || in.ranges[i].lo < 0.0 || middle.at[i] <= 2.0 * negligible)
+      return constant_bound(Range::everything());
+  return tangent_bound(op_for<Dilation>(), body, part, Bend::concave,
+                       range_slack * (1.0 + 1.0 / n) * size_of(in.ranges) + 10.0 * negligible);
+}
 static Shortcut dilation_shortcut(const void*, const Box&, std::span<const Range> args) {
   if (is(args[0], 0.0) || is(args[1], 0.0)) return Shortcut::to_constant(0.0);
   if (is(args[0], infinity)) return Shortcut::to_argument(1);
@@ -112,6 +127,15 @@ static Shortcut dilation_shortcut(const void*, const Box&, std::span<const Range
 static Range erosion_range(const void* body, const Box&, std::span<const Range> args) {
   const double n = static_cast<const Erosion*>(body)->n;
   return spread_positive(ends(op_for<Erosion>(), body, args, {true, false}), range_slack * (1.0 + 1.0 / n));
+}
+/// Convex for 0 < d < T: its second derivatives are a positive multiple of (1, -q)(1, -q)^T.
+static LinearBound erosion_linear(const void* body, const LinearInput& in) {
+  const double n = static_cast<const Erosion*>(body)->n;
+  const Range d = in.ranges[0], t = in.ranges[1];
+  const Range range = erosion_range(body, in.local, in.ranges);
+  if (!(d.lo > 2.0 * negligible) || !(t.lo > d.hi) || !std::isfinite(range.hi))
+    return constant_bound(Range::everything());
+  return tangent_bound(op_for<Erosion>(), body, in, Bend::convex, range_slack * (1.0 + 1.0 / n) * range.hi);
 }
 static Shortcut erosion_shortcut(const void*, const Box&, std::span<const Range> args) {
   if (args[0].lo > negligible && args[1].hi <= args[0].lo) return Shortcut::to_constant(infinity);
@@ -138,27 +162,68 @@ static Range ray_scaling_range(const void* body, const Box& local, std::span<con
   return spread_positive(value, range_slack * (2.0 + b.n.exponent));
 }
 
+/// ln f = ln d + n ln r - n ln T.
+static LinearBound ray_scaling_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const RayScaling*>(body);
+  const double n = b.inverted ? -b.n.exponent : b.n.exponent;
+  const Range d = in.ranges[0], t = in.ranges[1];
+  Range r;
+  {
+    Vec3 nearest, farthest;
+    for (int i = 0; i < 3; ++i) {
+      const Range m = magnitude(in.local.axis(i));
+      nearest[i] = m.lo;
+      farthest[i] = m.hi;
+    }
+    r = Range{nearest.stableNorm(), farthest.stableNorm()}.widened(range_slack);
+  }
+  const auto usable = [](Range x) { return x.lo > 1e3 * negligible && x.hi < 1e60; };
+  const Range f = ray_scaling_range(body, in.local, in.ranges);
+  if (!usable(d) || !usable(t) || !usable(r) || !(f.lo > 0.0) || !(f.hi < 1e150))
+    return constant_bound(Range::everything());
+  const LinearBound sum = logarithm_bound(in.args[0], d) +
+                          (n * logarithm_bound(length_bound(in), r) + -n * logarithm_bound(in.args[1], t));
+  const double size = std::abs(std::log(d.lo)) + std::abs(std::log(d.hi)) +
+                      b.n.exponent * (std::abs(std::log(r.lo)) + std::abs(std::log(r.hi)) +
+                                      std::abs(std::log(t.lo)) + std::abs(std::log(t.hi)));
+  const double slack = range_slack * (1.0 + size);
+  const Range over{std::log(f.lo) - slack, std::log(f.hi) + slack};
+  return exponential_bound(sum, over).widened(range_slack * (2.0 + b.n.exponent) * f.hi);
+}
+
 }  // namespace detail
 
 template <>
 const Op& op_for<detail::Dilation>() {
   using namespace detail;
-  static const Op op{"dilation", HWY_DYNAMIC_DISPATCH(dilation_simd)(),
-                     HWY_STATIC_DISPATCH(dilation_scalar)(), dilation_range, dilation_shortcut};
+  static const Op op{"dilation",
+                     HWY_DYNAMIC_DISPATCH(dilation_simd)(),
+                     HWY_STATIC_DISPATCH(dilation_scalar)(),
+                     dilation_range,
+                     dilation_shortcut,
+                     dilation_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::Erosion>() {
   using namespace detail;
-  static const Op op{"erosion", HWY_DYNAMIC_DISPATCH(erosion_simd)(), HWY_STATIC_DISPATCH(erosion_scalar)(),
-                     erosion_range, erosion_shortcut};
+  static const Op op{"erosion",
+                     HWY_DYNAMIC_DISPATCH(erosion_simd)(),
+                     HWY_STATIC_DISPATCH(erosion_scalar)(),
+                     erosion_range,
+                     erosion_shortcut,
+                     erosion_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::RayScaling>() {
   using namespace detail;
-  static const Op op{"ray_scaling", HWY_DYNAMIC_DISPATCH(ray_scaling_simd)(),
-                     HWY_STATIC_DISPATCH(ray_scaling_scalar)(), ray_scaling_range};
+  static const Op op{"ray_scaling",
+                     HWY_DYNAMIC_DISPATCH(ray_scaling_simd)(),
+                     HWY_STATIC_DISPATCH(ray_scaling_scalar)(),
+                     ray_scaling_range,
+                     nullptr,
+                     ray_scaling_linear};
   return op;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "implicit/number/targets.hpp"
+#include "implicit/operators/function_bounds.hpp"
 #include "implicit/operators/range_rules.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/hoffmann.cpp"
@@ -80,6 +81,14 @@ static Range blend_range(const void* body, const Box&, std::span<const Range> ar
   return spread(r, 0.0, range_slack * size);
 }
 
+/// The union is concave, K <= 0; intersection and difference are convex.
+static LinearBound blend_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const HoffmannBlend*>(body);
+  const Bend bend = b.role == ZeroRole::make_union ? Bend::concave : Bend::convex;
+  return tangent_bound(op_for<HoffmannBlend>(), body, in, bend,
+                       2.0 * range_slack * (b.r1 + b.r2 + size_of(in.ranges)));
+}
+
 /// Where the arguments differ by a radius everywhere the result is one of them; a difference has the sign of
 /// a subtracted one turned.
 static Shortcut blend_shortcut(const void* body, const Box&, std::span<const Range> args) {
@@ -105,8 +114,12 @@ const Op& op_for<detail::HoffmannPolynomial>() {
 template <>
 const Op& op_for<detail::HoffmannBlend>() {
   using namespace detail;
-  static const Op op{"hoffmann_blend", HWY_DYNAMIC_DISPATCH(hoffmann_blend_simd)(),
-                     HWY_STATIC_DISPATCH(hoffmann_blend_scalar)(), blend_range, blend_shortcut};
+  static const Op op{"hoffmann_blend",
+                     HWY_DYNAMIC_DISPATCH(hoffmann_blend_simd)(),
+                     HWY_STATIC_DISPATCH(hoffmann_blend_scalar)(),
+                     blend_range,
+                     blend_shortcut,
+                     blend_linear};
   return op;
 }
 

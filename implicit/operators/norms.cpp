@@ -1,8 +1,12 @@
 #include "implicit/operators/norms.hpp"
 
 #include <algorithm>
+#include <array>
+#include <type_traits>
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
+#include "implicit/operators/function_bounds.hpp"
 #include "implicit/operators/range_rules.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/norms.cpp"
@@ -116,6 +120,45 @@ static Range norm_range(const void* body, const Box&, std::span<const Range> arg
   const double n = static_cast<const Body*>(body)->n.exponent;
   return spread_positive(r, range_slack * (1.0 + 1.0 / n));
 }
+/// Both are convex or concave where no argument is negative. They are associative: many arguments are taken
+/// in halves, each half's bound being an argument of the rest.
+template <class Body>
+static LinearBound norm_linear(const void* body, const LinearInput& in) {
+  const double n = static_cast<const Body*>(body)->n.exponent;
+  const bool convex = std::is_same_v<Body, Norm> && n >= 1.0;
+  const std::size_t k = in.args.size();
+  LinearInput part = in;
+  if (k > 4) {
+    const LinearInput* const all = &in;
+    LinearBound bounds[2];
+    Range ranges[2];
+    for (std::size_t half = 0; half < 2; ++half) {
+      const std::size_t first = half * (k / 2), count = half == 0 ? k / 2 : k - k / 2;
+      part.args = all->args.subspan(first, count);
+      part.ranges = all->ranges.subspan(first, count);
+      bounds[half] = norm_linear<Body>(body, part);
+      ranges[half] = norm_range<Body>(body, in.local, part.ranges);
+    }
+    part.args = bounds;
+    part.ranges = ranges;
+    return norm_linear<Body>(body, part);
+  }
+  // At 0 the kernels' slopes are those of no plane below or above.
+  std::array<LinearBound, 4> inner;
+  for (std::size_t i = 0; i < k; ++i) inner[i] = recentred(in.args[i], in.ranges[i]);
+  part.args = std::span(inner).first(k);
+  // Where a concave one has infinite slopes the kernels' do not belong to a plane above it.
+  const bool steep = std::is_same_v<Body, Norm> && n < 1.0;
+  const Middle middle(part);
+  if (!middle.usable) return constant_bound(Range::everything());
+  const double size = size_of(in.ranges);
+  for (std::size_t i = 0; i < k; ++i)
+    if (middle.at[i] <= negligible || (!convex && in.ranges[i].lo < (steep ? 1e-30 * size : 0.0)))
+      return constant_bound(Range::everything());
+  const double slack =
+      range_slack * (1.0 + 1.0 / n) * (10.0 * negligible + norm_range<Body>(body, in.local, in.ranges).hi);
+  return tangent_bound(op_for<Body>(), body, part, convex ? Bend::convex : Bend::concave, slack);
+}
 static Shortcut norm_shortcut(const void*, const Box&, std::span<const Range> args) {
   return the_only_other(args, 0.0);
 }
@@ -130,16 +173,23 @@ static Shortcut inverse_norm_shortcut(const void*, const Box&, std::span<const R
 template <>
 const Op& op_for<detail::Norm>() {
   using namespace detail;
-  static const Op op{"norm", HWY_DYNAMIC_DISPATCH(norm_simd)(), HWY_STATIC_DISPATCH(norm_scalar)(),
-                     norm_range<Norm>, norm_shortcut};
+  static const Op op{"norm",
+                     HWY_DYNAMIC_DISPATCH(norm_simd)(),
+                     HWY_STATIC_DISPATCH(norm_scalar)(),
+                     norm_range<Norm>,
+                     norm_shortcut,
+                     norm_linear<Norm>};
   return op;
 }
 template <>
 const Op& op_for<detail::InverseNorm>() {
   using namespace detail;
-  static const Op op{"inverse_norm", HWY_DYNAMIC_DISPATCH(inverse_norm_simd)(),
-                     HWY_STATIC_DISPATCH(inverse_norm_scalar)(), norm_range<InverseNorm>,
-                     inverse_norm_shortcut};
+  static const Op op{"inverse_norm",
+                     HWY_DYNAMIC_DISPATCH(inverse_norm_simd)(),
+                     HWY_STATIC_DISPATCH(inverse_norm_scalar)(),
+                     norm_range<InverseNorm>,
+                     inverse_norm_shortcut,
+                     norm_linear<InverseNorm>};
   return op;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
 #include "implicit/operators/soft_ellipsoid.hpp"
 #include "implicit/primitives/lp_metric.hpp"
@@ -109,6 +110,25 @@ Shortcut beyond_fifteen(const void*, const Box&, std::span<const Range> args) {
   return beyond(args[0], 15.0);
 }
 
+/// Where the potentials turn from concave to convex, and where they end. Those of Wyvill and the windowed
+/// Gaussian are zeros of P'': 22 - 102 u + 60 u^2 and (1 - u) (2 + k (1 - u)) - 2 u (2 + 4 k (1 - u) + k^2 (1
+/// - u)^2); that of the Gaussian is u = 1/(2 k), k = 4 ln 2. Blanc's inner branch is concave, its outer one
+/// convex: (1 - u) (D^2 + k D) < 4 u k^2 for 1/4 <= u <= 1, as the right side is the larger one at u = 1/4
+/// and the difference rises with it.
+struct Bends {
+  static constexpr double blanc[] = {0.5, 1.0};
+  static constexpr double wyvill[] = {0.50347028485061292, 1.0};
+  static constexpr double gaussian[] = {0.42466090014400952, 15.0};
+  static constexpr double gaussian_windowed[] = {0.49952561293904499, 1.0};
+};
+/// Constant for d < 0, then concave, convex and constant.
+template <class Body, auto& Joints>
+LinearBound potential_linear(const void* body, const LinearInput& in) {
+  constexpr Curve curves[] = {Curve::concave, Curve::convex, Curve::convex};
+  const auto at = [](const void* b, double d) { return smooth_knot(op_for<Body>(), b, d); };
+  return of_curves(in.args[0], in.ranges[0], Joints, curves, at, body, 4.0 * range_slack);
+}
+
 /// Of an ellipsoid: no distance is needed.
 Merged soft_ellipsoid_of(const void* body, std::size_t, const Op& inner, const void* inner_body) {
   if (&inner != &op_for<LpMetric>()) return {};
@@ -124,8 +144,12 @@ template <>
 const Op& op_for<detail::Blanc>() {
   using namespace detail;
   static const Op op = [] {
-    Op o{"blanc", HWY_DYNAMIC_DISPATCH(blanc_simd)(), HWY_STATIC_DISPATCH(blanc_scalar)(),
-         potential_range<Blanc>, beyond_one};
+    Op o{"blanc",
+         HWY_DYNAMIC_DISPATCH(blanc_simd)(),
+         HWY_STATIC_DISPATCH(blanc_scalar)(),
+         potential_range<Blanc>,
+         beyond_one,
+         potential_linear<Blanc, Bends::blanc>};
     o.merge = soft_ellipsoid_of;
     return o;
   }();
@@ -134,23 +158,34 @@ const Op& op_for<detail::Blanc>() {
 template <>
 const Op& op_for<detail::Wyvill>() {
   using namespace detail;
-  static const Op op{"wyvill", HWY_DYNAMIC_DISPATCH(wyvill_simd)(), HWY_STATIC_DISPATCH(wyvill_scalar)(),
-                     potential_range<Wyvill>, beyond_one};
+  static const Op op{"wyvill",
+                     HWY_DYNAMIC_DISPATCH(wyvill_simd)(),
+                     HWY_STATIC_DISPATCH(wyvill_scalar)(),
+                     potential_range<Wyvill>,
+                     beyond_one,
+                     potential_linear<Wyvill, Bends::wyvill>};
   return op;
 }
 template <>
 const Op& op_for<detail::Gaussian>() {
   using namespace detail;
-  static const Op op{"gaussian", HWY_DYNAMIC_DISPATCH(gaussian_simd)(),
-                     HWY_STATIC_DISPATCH(gaussian_scalar)(), potential_range<Gaussian>, beyond_fifteen};
+  static const Op op{"gaussian",
+                     HWY_DYNAMIC_DISPATCH(gaussian_simd)(),
+                     HWY_STATIC_DISPATCH(gaussian_scalar)(),
+                     potential_range<Gaussian>,
+                     beyond_fifteen,
+                     potential_linear<Gaussian, Bends::gaussian>};
   return op;
 }
 template <>
 const Op& op_for<detail::GaussianWindowed>() {
   using namespace detail;
-  static const Op op{"gaussian_windowed", HWY_DYNAMIC_DISPATCH(gaussian_windowed_simd)(),
-                     HWY_STATIC_DISPATCH(gaussian_windowed_scalar)(), potential_range<GaussianWindowed>,
-                     beyond_one};
+  static const Op op{"gaussian_windowed",
+                     HWY_DYNAMIC_DISPATCH(gaussian_windowed_simd)(),
+                     HWY_STATIC_DISPATCH(gaussian_windowed_scalar)(),
+                     potential_range<GaussianWindowed>,
+                     beyond_one,
+                     potential_linear<GaussianWindowed, Bends::gaussian_windowed>};
   return op;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "implicit/number/targets.hpp"
+#include "implicit/operators/function_bounds.hpp"
 #include "implicit/operators/range_rules.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/scale_blend.cpp"
@@ -86,6 +87,19 @@ static Range scale_range(const void* body, const Box&, std::span<const Range> ar
   return r;
 }
 
+/// Lower is concave, upper convex, where both are blended as they should be: not next to (0, 0), where a
+/// slope is given that no plane above lower has, and not far out.
+static LinearBound scale_linear(const void* body, const LinearInput& in) {
+  const auto& s = *static_cast<const ScaleBlend*>(body);
+  const Middle middle(in);
+  const double size = size_of(in.ranges);
+  if (!middle.usable || size > 1e99 ||
+      std::max(std::abs(middle.at[0]), std::abs(middle.at[1])) <= 1e3 * negligible)
+    return constant_bound(Range::everything());
+  const Bend bend = s.side == ScaleSide::lower ? Bend::concave : Bend::convex;
+  return tangent_bound(op_for<ScaleBlend>(), body, in, bend, 4.0 * range_slack * size + 10.0 * negligible);
+}
+
 /// Beyond region III on the whole box. r_i >= 1e-9, so K_i x is another number than x.
 static Shortcut scale_shortcut(const void* body, const Box&, std::span<const Range> args) {
   const auto& s = *static_cast<const ScaleBlend*>(body);
@@ -108,8 +122,12 @@ static Shortcut scale_shortcut(const void* body, const Box&, std::span<const Ran
 template <>
 const Op& op_for<detail::ScaleBlend>() {
   using namespace detail;
-  static const Op op{"scale_blend", HWY_DYNAMIC_DISPATCH(scale_blend_simd)(),
-                     HWY_STATIC_DISPATCH(scale_blend_scalar)(), scale_range, scale_shortcut};
+  static const Op op{"scale_blend",
+                     HWY_DYNAMIC_DISPATCH(scale_blend_simd)(),
+                     HWY_STATIC_DISPATCH(scale_blend_scalar)(),
+                     scale_range,
+                     scale_shortcut,
+                     scale_linear};
   return op;
 }
 

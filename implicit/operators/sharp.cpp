@@ -55,6 +55,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "implicit/eval/linear_rules.hpp"
+#include "implicit/eval/linear_shapes.hpp"
 
 namespace blendwright {
 namespace detail {
@@ -88,6 +89,13 @@ Range falling_range(const void* body, const Box&, Args args) {
   return {at(args[0].hi), at(args[0].lo)};
 }
 
+/// Convex for x > 0.
+static LinearBound reciprocal_bound(const void* body, const LinearInput& in) {
+  if (!(in.ranges[0].lo > 2.0 * negligible)) return constant_bound(Range::everything());
+  constexpr Curve convex[] = {Curve::convex};
+  const auto at = [](const void* b, double x) { return smooth_knot(op_for<Reciprocal>(), b, x); };
+  return of_curves(in.args[0], in.ranges[0], {}, convex, at, body, range_slack / in.ranges[0].lo);
+}
 static LinearBound one_minus_bound(const void*, const LinearInput& in) {
   return constant_bound({1.0, 1.0}) + -1.0 * in.args[0];
 }
@@ -129,8 +137,12 @@ const Op& op_for<detail::Negative>() {
 template <>
 const Op& op_for<detail::Reciprocal>() {
   using namespace detail;
-  static const Op op{"reciprocal", HWY_DYNAMIC_DISPATCH(reciprocal_simd)(),
-                     HWY_STATIC_DISPATCH(reciprocal_scalar)(), falling_range<Reciprocal>};
+  static const Op op{"reciprocal",
+                     HWY_DYNAMIC_DISPATCH(reciprocal_simd)(),
+                     HWY_STATIC_DISPATCH(reciprocal_scalar)(),
+                     falling_range<Reciprocal>,
+                     nullptr,
+                     reciprocal_bound};
   return op;
 }
 template <>

@@ -1,5 +1,7 @@
 #include "implicit/operators/soft.hpp"
 
+#include "implicit/eval/linear_rules.hpp"
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
 #include "implicit/operators/range_rules.hpp"
 #include "implicit/operators/soft_ellipsoid.hpp"
@@ -74,8 +76,18 @@ static Shortcut overlap_shortcut(const void* body, const Box&, std::span<const R
                                                                      : Shortcut{};
 }
 
+static LinearBound overlap_linear(const void* body, const LinearInput& in) {
+  const double offset = static_cast<const SoftOverlap*>(body)->offset;
+  const Range f = in.ranges[0];
+  return positive_part(in.args[0] + constant_bound({-offset, -offset}), {f.lo - offset, f.hi - offset});
+}
+
 static Range difference_range(const void*, const Box&, std::span<const Range> args) {
   return {std::max(0.0, args[0].lo - args[1].hi), std::max(0.0, args[0].hi - args[1].lo)};
+}
+static LinearBound difference_linear(const void*, const LinearInput& in) {
+  const Range a = in.ranges[0], b = in.ranges[1];
+  return positive_part(in.args[0] + -1.0 * in.args[1], {a.lo - b.hi, a.hi - b.lo});
 }
 static Shortcut difference_shortcut(const void*, const Box&, std::span<const Range> args) {
   if (is(args[1], 0.0) && args[0].lo >= 0.0) return Shortcut::to_argument(0);
@@ -89,8 +101,12 @@ template <>
 const Op& op_for<detail::SoftSum>() {
   using namespace detail;
   static const Op op = [] {
-    Op o{"soft_sum", HWY_DYNAMIC_DISPATCH(soft_sum_simd)(), HWY_STATIC_DISPATCH(soft_sum_scalar)(), sum_range,
-         sum_shortcut};
+    Op o{"soft_sum",
+         HWY_DYNAMIC_DISPATCH(soft_sum_simd)(),
+         HWY_STATIC_DISPATCH(soft_sum_scalar)(),
+         sum_range,
+         sum_shortcut,
+         added_bound};
     o.merge = added_soft_ellipsoid_of;
     return o;
   }();
@@ -99,15 +115,23 @@ const Op& op_for<detail::SoftSum>() {
 template <>
 const Op& op_for<detail::SoftOverlap>() {
   using namespace detail;
-  static const Op op{"soft_overlap", HWY_DYNAMIC_DISPATCH(soft_overlap_simd)(),
-                     HWY_STATIC_DISPATCH(soft_overlap_scalar)(), overlap_range, overlap_shortcut};
+  static const Op op{"soft_overlap",
+                     HWY_DYNAMIC_DISPATCH(soft_overlap_simd)(),
+                     HWY_STATIC_DISPATCH(soft_overlap_scalar)(),
+                     overlap_range,
+                     overlap_shortcut,
+                     overlap_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::SoftDifference>() {
   using namespace detail;
-  static const Op op{"soft_difference", HWY_DYNAMIC_DISPATCH(soft_difference_simd)(),
-                     HWY_STATIC_DISPATCH(soft_difference_scalar)(), difference_range, difference_shortcut};
+  static const Op op{"soft_difference",
+                     HWY_DYNAMIC_DISPATCH(soft_difference_simd)(),
+                     HWY_STATIC_DISPATCH(soft_difference_scalar)(),
+                     difference_range,
+                     difference_shortcut,
+                     difference_linear};
   return op;
 }
 

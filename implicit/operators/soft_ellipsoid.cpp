@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/operators/soft_ellipsoid.cpp"
@@ -76,6 +77,14 @@ KernelSet added_soft_ellipsoid_simd() { return kernel_set<AddedSoftEllipsoid, Si
 #if HWY_ONCE
 KernelSet soft_ellipsoid_scalar() { return kernel_set<SoftEllipsoid, double>(); }
 KernelSet added_soft_ellipsoid_scalar() { return kernel_set<AddedSoftEllipsoid, double>(); }
+/// P and its slope at u.
+static Knot blanc_knot(double softness, double u) {
+  Dual<double> x;
+  x.v = u;
+  x.d[0] = 1.0;
+  const Dual<double> p = blanc_of_square(softness, x);
+  return {u, p.v, p.d[0], p.d[0]};
+}
 #endif
 
 }  // namespace blendwright::detail::HWY_NAMESPACE
@@ -113,6 +122,26 @@ static bool outside(const Box& local) {
   }
   return square >= 1.0 + 4.0 * radius_slack;
 }
+/// u = |c|^2 + 2 c.(y - c) + [0, |y - c|^2], and P of u is concave to u = 1/4, then convex, then 0.
+static LinearBound ellipsoid_linear(double softness, const LinearInput& in) {
+  constexpr double joints[] = {0.25, 1.0};
+  constexpr Curve curves[] = {Curve::concave, Curve::convex, Curve::convex};
+  const Vec3 c = in.centre, reach = reach_of(in);
+  double far = 0.0;
+  for (unsigned k = 0; k < 4; ++k) far = std::max(far, (in.corner(k) - c).squaredNorm());
+  const double size = reach.squaredNorm();
+  const double slack = 16.0 * std::numeric_limits<double>::epsilon() * size + 4.0 * reach.dot(in.slack);
+  const LinearBound square = LinearBound{c.squaredNorm(), 2.0 * in.slope(c), {0.0, far}}.widened(slack);
+  double near = 0.0;
+  for (int i = 0; i < 3; ++i) near += std::pow(magnitude(in.local.axis(i)).lo, 2);
+  const Range range{std::max(0.0, near - slack), size + slack};
+  return of_curves(
+      square, range, joints, curves,
+      [](const void* s, double u) {
+        return HWY_STATIC_DISPATCH(blanc_knot)(*static_cast<const double*>(s), u);
+      },
+      &softness, 4.0 * range_slack);
+}
 static double softness_of(const void* body) { return static_cast<const SoftEllipsoid*>(body)->softness; }
 
 }  // namespace detail
@@ -120,20 +149,24 @@ static double softness_of(const void* body) { return static_cast<const SoftEllip
 template <>
 const Op& op_for<detail::SoftEllipsoid>() {
   using namespace detail;
-  static const Op op{"soft_ellipsoid", HWY_DYNAMIC_DISPATCH(soft_ellipsoid_simd)(),
-                     HWY_STATIC_DISPATCH(soft_ellipsoid_scalar)(),
-                     [](const void* body, const Box& local, std::span<const Range>) {
-                       return ellipsoid_range(softness_of(body), local);
-                     },
-                     [](const void*, const Box& local, std::span<const Range>) {
-                       return outside(local) ? Shortcut::to_constant(0.0) : Shortcut{};
-                     }};
+  static const Op op{
+      "soft_ellipsoid",
+      HWY_DYNAMIC_DISPATCH(soft_ellipsoid_simd)(),
+      HWY_STATIC_DISPATCH(soft_ellipsoid_scalar)(),
+      [](const void* body, const Box& local, std::span<const Range>) {
+        return ellipsoid_range(softness_of(body), local);
+      },
+      [](const void*, const Box& local, std::span<const Range>) {
+        return outside(local) ? Shortcut::to_constant(0.0) : Shortcut{};
+      },
+      [](const void* body, const LinearInput& in) { return ellipsoid_linear(softness_of(body), in); }};
   return op;
 }
 template <>
 const Op& op_for<detail::AddedSoftEllipsoid>() {
   using namespace detail;
-  static const Op op{"added_soft_ellipsoid", HWY_DYNAMIC_DISPATCH(added_soft_ellipsoid_simd)(),
+  static const Op op{"added_soft_ellipsoid",
+                     HWY_DYNAMIC_DISPATCH(added_soft_ellipsoid_simd)(),
                      HWY_STATIC_DISPATCH(added_soft_ellipsoid_scalar)(),
                      [](const void* body, const Box& local, std::span<const Range> args) {
                        const Range r =
@@ -142,6 +175,10 @@ const Op& op_for<detail::AddedSoftEllipsoid>() {
                      },
                      [](const void*, const Box& local, std::span<const Range>) {
                        return outside(local) ? Shortcut::to_argument(0) : Shortcut{};
+                     },
+                     [](const void* body, const LinearInput& in) {
+                       const double softness = static_cast<const AddedSoftEllipsoid*>(body)->softness;
+                       return in.args[0] + ellipsoid_linear(softness, in);
                      }};
   return op;
 }

@@ -1,5 +1,6 @@
 #include "implicit/primitives/generalized_distance.hpp"
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/eval/op.hpp"
 #include "implicit/number/targets.hpp"
 #include "implicit/primitives/plane.hpp"
@@ -82,6 +83,12 @@ static Range generalized_range(const void* body, const Box& local, std::span<con
   return {std::max(0.0, r.lo - slack), r.hi + slack};
 }
 
+/// Convex; every term has a partial of at most 1 and the rounding of coordinates.
+static LinearBound generalized_linear(const void* body, const LinearInput& in) {
+  const auto count = static_cast<double>(static_cast<const GeneralizedDistance*>(body)->normals.size());
+  return gauge_bound(op_for<GeneralizedDistance>(), body, in, Curve::convex, Vec3::Constant(count));
+}
+
 bool span_space(const std::vector<Vec3>& normals) {
   const Vec3 a = normals.front();
   Vec3 across = Vec3::Zero();
@@ -159,8 +166,12 @@ Vec3 half_size(const GeneralizedDistance& b) {
 template <>
 const Op& op_for<detail::GeneralizedDistance>() {
   using namespace detail;
-  static const Op op{"generalized_distance", HWY_DYNAMIC_DISPATCH(generalized_simd)(),
-                     HWY_STATIC_DISPATCH(generalized_scalar)(), generalized_range};
+  static const Op op{"generalized_distance",
+                     HWY_DYNAMIC_DISPATCH(generalized_simd)(),
+                     HWY_STATIC_DISPATCH(generalized_scalar)(),
+                     generalized_range,
+                     nullptr,
+                     generalized_linear};
   return op;
 }
 

@@ -1,7 +1,9 @@
 #include "implicit/primitives/lp_metric.hpp"
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/eval/op.hpp"
 #include "implicit/number/targets.hpp"
+#include "implicit/primitives/norm_linear.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/primitives/lp_metric.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
@@ -32,11 +34,21 @@ namespace blendwright {
 namespace detail {
 HWY_EXPORT(lp_metric_simd);
 
+/// Convex for n >= 1, concave on each octant for n <= 1.
+static LinearBound lp_metric_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const LpMetric*>(body);
+  return norm_bound(op_for<LpMetric>(), body, in, b.n.exponent >= 1.0, b.inverse_axes);
+}
+
 static Op lp_metric_op() {
-  return {"lp_metric", HWY_DYNAMIC_DISPATCH(lp_metric_simd)(), HWY_STATIC_DISPATCH(lp_metric_scalar)(),
+  return {"lp_metric",
+          HWY_DYNAMIC_DISPATCH(lp_metric_simd)(),
+          HWY_STATIC_DISPATCH(lp_metric_scalar)(),
           [](const void* body, const Box& local, std::span<const Range>) {
             return range_by_magnitudes(op_for<LpMetric>(), body, local);
-          }};
+          },
+          nullptr,
+          lp_metric_linear};
 }
 
 }  // namespace detail

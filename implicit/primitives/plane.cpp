@@ -1,5 +1,6 @@
 #include "implicit/primitives/plane.hpp"
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/eval/op.hpp"
 #include "implicit/number/targets.hpp"
 #undef HWY_TARGET_INCLUDE
@@ -68,10 +69,7 @@ static Range plane_range(const void* body, const Box& local, std::span<const Ran
 }
 /// Exact; the kernel and the frame round.
 static LinearBound plane_linear(const void* body, const LinearInput& in) {
-  const Vec3& n = static_cast<const Plane*>(body)->normal;
-  const Vec3 size = in.local.lo.cwiseAbs().cwiseMax(in.local.hi.cwiseAbs());
-  const double slack = n.cwiseAbs().dot(8.0 * std::numeric_limits<double>::epsilon() * size + 2.0 * in.slack);
-  return LinearBound{n.dot(in.centre), in.slope(n), {0.0, 0.0}}.widened(slack);
+  return linear_form(static_cast<const Plane*>(body)->normal, in);
 }
 static Range half_space_range(const void* body, const Box& local, std::span<const Range>) {
   const Range f = linear_range(static_cast<const HalfSpace*>(body)->normal, local);
@@ -79,6 +77,15 @@ static Range half_space_range(const void* body, const Box& local, std::span<cons
 }
 static Range slab_range(const void* body, const Box& local, std::span<const Range>) {
   return magnitude(linear_range(static_cast<const Slab*>(body)->normal, local));
+}
+
+static LinearBound half_space_linear(const void* body, const LinearInput& in) {
+  const Vec3& n = static_cast<const HalfSpace*>(body)->normal;
+  return positive_part(linear_form(n, in), linear_range(n, in.local));
+}
+static LinearBound slab_linear(const void* body, const LinearInput& in) {
+  const Vec3& n = static_cast<const Slab*>(body)->normal;
+  return magnitude_bound(linear_form(n, in), linear_range(n, in.local));
 }
 
 }  // namespace detail
@@ -97,15 +104,20 @@ const Op& op_for<detail::Plane>() {
 template <>
 const Op& op_for<detail::HalfSpace>() {
   using namespace detail;
-  static const Op op{"half_space", HWY_DYNAMIC_DISPATCH(half_space_simd)(),
-                     HWY_STATIC_DISPATCH(half_space_scalar)(), half_space_range};
+  static const Op op{"half_space",
+                     HWY_DYNAMIC_DISPATCH(half_space_simd)(),
+                     HWY_STATIC_DISPATCH(half_space_scalar)(),
+                     half_space_range,
+                     nullptr,
+                     half_space_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::Slab>() {
   using namespace detail;
-  static const Op op{"slab", HWY_DYNAMIC_DISPATCH(slab_simd)(), HWY_STATIC_DISPATCH(slab_scalar)(),
-                     slab_range};
+  static const Op op{
+      "slab",     HWY_DYNAMIC_DISPATCH(slab_simd)(), HWY_STATIC_DISPATCH(slab_scalar)(), slab_range, nullptr,
+      slab_linear};
   return op;
 }
 

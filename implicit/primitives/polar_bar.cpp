@@ -2,7 +2,11 @@
 
 #include <cmath>
 
+#include "implicit/eval/linear_rules.hpp"
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
+#include "implicit/primitives/norm_linear.hpp"
+#include "implicit/primitives/profile_linear.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/primitives/polar_bar.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
@@ -47,9 +51,22 @@ static Range polar_bar_range(const void* body, const Box& local, std::span<const
       .widened(range_slack);
 }
 
+/// Convex with a convex profile; else the norm of what is known of g and of |z/c|.
+static LinearBound polar_bar_linear(const void* body, const LinearInput& in) {
+  const PolarBar& b = *static_cast<const PolarBar*>(body);
+  const Profile& p = b.profile;
+  if (p.kind == Profile::Kind::lp && p.n.exponent >= 1.0)
+    return gauge_bound(op_for<PolarBar>(), body, in, Curve::convex, {1.0 / p.a, 1.0 / p.b, b.inverse_c});
+  return norm_of_two(b.n.exponent, gauge_linear(p, in), coordinate_magnitude(in, 2, b.inverse_c)).bound;
+}
+
 static Op polar_bar_op() {
-  return {"polar_bar", HWY_DYNAMIC_DISPATCH(polar_bar_simd)(), HWY_STATIC_DISPATCH(polar_bar_scalar)(),
-          polar_bar_range};
+  return {"polar_bar",
+          HWY_DYNAMIC_DISPATCH(polar_bar_simd)(),
+          HWY_STATIC_DISPATCH(polar_bar_scalar)(),
+          polar_bar_range,
+          nullptr,
+          polar_bar_linear};
 }
 
 }  // namespace detail

@@ -88,4 +88,12 @@ bool Profile::same_after_turn(double angle) const {
 
 double Profile::gauge(double u, double v) const { return HWY_NAMESPACE::gauge(*this, u, v); }
 
+Profile::Slopes Profile::slopes(double u, double v) const {
+  HWY_NAMESPACE::Dual<double> x = u, y = v;
+  x.d[0] = 1.0;
+  y.d[1] = 1.0;
+  const HWY_NAMESPACE::Dual<double> g = HWY_NAMESPACE::gauge(*this, x, y);
+  return {g.v, g.d[0], g.d[1]};
+}
+
 }  // namespace blendwright::detail

@@ -41,8 +41,12 @@ struct Profile {
   [[nodiscard]] double lipschitz() const;
   /// Whether g stays the same under a turn by this angle.
   [[nodiscard]] bool same_after_turn(double angle) const;
-  /// g at one point, through the same formula as every kernel.
+  /// g at one point, through the same formula as every kernel; and its partials.
   [[nodiscard]] double gauge(double u, double v) const;
+  struct Slopes {
+    double value, by_u, by_v;
+  };
+  [[nodiscard]] Slopes slopes(double u, double v) const;
 };
 
 /// A part of the profile's plane: a box around it, and its polar coordinates.
@@ -62,6 +66,11 @@ struct PlanePart {
 
 /// Encloses 1/rho over these angles (all when there are none).
 [[nodiscard]] Range reciprocal_radius_range(const Profile& profile, const std::optional<Range>& theta);
+/// Encloses cos over [lo, hi].
+[[nodiscard]] Range cosine_range(Range x);
+/// Encloses r times the second derivative of g across the ray, q + q'' (3), (4), over these angles; none of a
+/// star with m < 2 near a tip.
+[[nodiscard]] std::optional<Range> bend_range(const Profile& profile, Range theta);
 /// Encloses g over the part turned by every -phi, phi in `turn`. Tends to the exact range as part and turn
 /// shrink to a point.
 [[nodiscard]] Range gauge_range(const Profile& profile, const PlanePart& part, Range turn = {0.0, 0.0});

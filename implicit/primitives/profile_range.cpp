@@ -17,7 +17,14 @@ Range both(Range a, Range b) {
   return r.lo <= r.hi ? r : a;  // they meet but for rounding
 }
 
-/// Encloses cos over [lo, hi].
+/// q of (3) and (4) at cos k theta = c: it falls with c.
+double reciprocal_radius(const Profile& p, double c) {
+  if (p.kind == Profile::Kind::rose) return (1.0 + p.eps) / (p.a * (1.0 + p.eps * c));
+  return (1.0 + p.sigma * std::pow(std::sqrt(0.5 * (1.0 - c)), p.m.exponent)) / p.a;
+}
+
+}  // namespace
+
 Range cosine_range(Range x) {
   const double slack = 1e-15 * (4.0 + std::abs(x.lo) + std::abs(x.hi));
   x = {x.lo - slack, x.hi + slack};
@@ -29,14 +36,6 @@ Range cosine_range(Range x) {
       (std::remainder(t, 2.0) == 0.0 ? c.hi : c.lo) = std::remainder(t, 2.0) == 0.0 ? 1.0 : -1.0;
   return {std::max(c.lo, -1.0), std::min(c.hi, 1.0)};
 }
-
-/// q of (3) and (4) at cos k theta = c: it falls with c.
-double reciprocal_radius(const Profile& p, double c) {
-  if (p.kind == Profile::Kind::rose) return (1.0 + p.eps) / (p.a * (1.0 + p.eps * c));
-  return (1.0 + p.sigma * std::pow(std::sqrt(0.5 * (1.0 - c)), p.m.exponent)) / p.a;
-}
-
-}  // namespace
 
 std::optional<Range> angles(Range u, Range v) {
   if (u.contains(0.0) && v.contains(0.0)) return std::nullopt;

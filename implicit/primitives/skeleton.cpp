@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "implicit/eval/linear_rules.hpp"
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/eval/op.hpp"
 #include "implicit/number/targets.hpp"
 #undef HWY_TARGET_INCLUDE
@@ -105,6 +107,29 @@ static Range segment_range(const void* body, const Box& local, std::span<const R
   return {std::max(0.0, r.lo - slack), r.hi + slack};
 }
 
+/// For every g of length 1/I: d >= g.X - max(g.p0, g.p1).
+static LinearBound segment_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const SegmentSkeleton*>(body);
+  const Vec3 direction = scalar_gradient(op_for<SegmentSkeleton>(), body, in.centre).gradient;
+  const double size = direction.norm();
+  const Vec3 g = size > 0.0 ? Vec3(direction * (b.inverse_radius / size)) : Vec3::Zero();
+  const Vec3 end = b.start + b.length * b.direction;
+  const double offset = -std::max(g.dot(b.start), g.dot(end));
+  const double slack = 2.0 * range_slack * b.inverse_radius * (b.start.lpNorm<1>() + b.length);
+  return supported_bound(op_for<SegmentSkeleton>(), body, in, Curve::convex, {offset, g},
+                         Vec3::Constant(b.inverse_radius), slack);
+}
+
+/// For every g: t >= g.X / h(g), h(g) = R (|g| + max(g_z l1/R, -g_z l0/R)) its largest value on the capsule.
+static LinearBound capsule_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const CapsuleGauge*>(body);
+  Vec3 g = scalar_gradient(op_for<CapsuleGauge>(), body, in.centre).gradient;
+  const double most = (g.stableNorm() + std::max(g.z() * b.above, -g.z() * b.below)) / b.inverse_radius;
+  if (most > 0.0) g /= most;
+  return supported_bound(op_for<CapsuleGauge>(), body, in, Curve::convex, {0.0, g},
+                         Vec3::Constant(b.inverse_radius), 0.0);
+}
+
 static Range capsule_range(const void* body, const Box& local, std::span<const Range>) {
   const Op& op = op_for<CapsuleGauge>();
   const Vec3 far = local.lo.cwiseAbs().cwiseMax(local.hi.cwiseAbs());
@@ -119,15 +144,23 @@ static Range capsule_range(const void* body, const Box& local, std::span<const R
 template <>
 const Op& op_for<detail::SegmentSkeleton>() {
   using namespace detail;
-  static const Op op{"segment_skeleton", HWY_DYNAMIC_DISPATCH(segment_skeleton_simd)(),
-                     HWY_STATIC_DISPATCH(segment_skeleton_scalar)(), segment_range};
+  static const Op op{"segment_skeleton",
+                     HWY_DYNAMIC_DISPATCH(segment_skeleton_simd)(),
+                     HWY_STATIC_DISPATCH(segment_skeleton_scalar)(),
+                     segment_range,
+                     nullptr,
+                     segment_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::CapsuleGauge>() {
   using namespace detail;
-  static const Op op{"capsule_gauge", HWY_DYNAMIC_DISPATCH(capsule_gauge_simd)(),
-                     HWY_STATIC_DISPATCH(capsule_gauge_scalar)(), capsule_range};
+  static const Op op{"capsule_gauge",
+                     HWY_DYNAMIC_DISPATCH(capsule_gauge_simd)(),
+                     HWY_STATIC_DISPATCH(capsule_gauge_scalar)(),
+                     capsule_range,
+                     nullptr,
+                     capsule_linear};
   return op;
 }
 

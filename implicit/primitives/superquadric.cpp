@@ -2,6 +2,7 @@
 
 #include "implicit/eval/op.hpp"
 #include "implicit/number/targets.hpp"
+#include "implicit/primitives/norm_linear.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/primitives/superquadric.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once per instruction set
@@ -56,6 +57,17 @@ static Range superquadric_range(const void* body, const Box& local, std::span<co
   return range_by_magnitudes(op_for<Superquadric>(), body, local);
 }
 
+/// Convex for n1, n2 >= 1, concave on each octant for n1, n2 <= 1, else a norm of a norm.
+static LinearBound superquadric_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const Superquadric*>(body);
+  const double n1 = b.n1.exponent, n2 = b.n2.exponent;
+  if ((n1 >= 1.0) == (n2 >= 1.0) || n1 == 1.0 || n2 == 1.0)
+    return norm_bound(op_for<Superquadric>(), body, in, n1 >= 1.0 && n2 >= 1.0, b.inverse_axes);
+  const BoundedNumber q = norm_of_two(n1, coordinate_magnitude(in, 0, b.inverse_axes[0]),
+                                      coordinate_magnitude(in, 1, b.inverse_axes[1]));
+  return norm_of_two(n2, q, coordinate_magnitude(in, 2, b.inverse_axes[2])).bound;
+}
+
 static Range asymmetric_range(const void* body, const Box& local, std::span<const Range>) {
   const auto& b = *static_cast<const AsymmetricSuperellipsoid*>(body);
   const Vec3 nearest = Vec3::Zero().cwiseMax(local.lo).cwiseMin(local.hi);
@@ -68,20 +80,34 @@ static Range asymmetric_range(const void* body, const Box& local, std::span<cons
   return Range{scalar_value(op, body, nearest), scalar_value(op, body, farthest)}.widened(range_slack);
 }
 
+static LinearBound asymmetric_linear(const void* body, const LinearInput& in) {
+  const auto& b = *static_cast<const AsymmetricSuperellipsoid*>(body);
+  return norm_bound(op_for<AsymmetricSuperellipsoid>(), body, in, b.n.exponent >= 1.0,
+                    b.inverse_plus.cwiseMax(b.inverse_minus));
+}
+
 }  // namespace detail
 
 template <>
 const Op& op_for<detail::Superquadric>() {
   using namespace detail;
-  static const Op op{"superquadric", HWY_DYNAMIC_DISPATCH(superquadric_simd)(),
-                     HWY_STATIC_DISPATCH(superquadric_scalar)(), superquadric_range};
+  static const Op op{"superquadric",
+                     HWY_DYNAMIC_DISPATCH(superquadric_simd)(),
+                     HWY_STATIC_DISPATCH(superquadric_scalar)(),
+                     superquadric_range,
+                     nullptr,
+                     superquadric_linear};
   return op;
 }
 template <>
 const Op& op_for<detail::AsymmetricSuperellipsoid>() {
   using namespace detail;
-  static const Op op{"asymmetric_superellipsoid", HWY_DYNAMIC_DISPATCH(asymmetric_simd)(),
-                     HWY_STATIC_DISPATCH(asymmetric_scalar)(), asymmetric_range};
+  static const Op op{"asymmetric_superellipsoid",
+                     HWY_DYNAMIC_DISPATCH(asymmetric_simd)(),
+                     HWY_STATIC_DISPATCH(asymmetric_scalar)(),
+                     asymmetric_range,
+                     nullptr,
+                     asymmetric_linear};
   return op;
 }
 

@@ -1,5 +1,6 @@
 #include "implicit/scene/level_conversion.hpp"
 
+#include "implicit/eval/linear_shapes.hpp"
 #include "implicit/number/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "implicit/scene/level_conversion.cpp"
@@ -59,10 +60,16 @@ static Op level_shift_op() {
           }};
 }
 static Op level_logarithm_op() {
-  return {"level_logarithm", HWY_DYNAMIC_DISPATCH(level_logarithm_simd)(),
+  return {"level_logarithm",
+          HWY_DYNAMIC_DISPATCH(level_logarithm_simd)(),
           HWY_STATIC_DISPATCH(level_logarithm_scalar)(),
           [](const void* body, const Box&, std::span<const Range> args) {
             return range_by_arguments(op_for<LevelLogarithm>(), body, args, {true});
+          },
+          nullptr,
+          [](const void*, const LinearInput& in) {
+            if (!(in.ranges[0].lo > 1e-100)) return constant_bound(Range::everything());
+            return logarithm_bound(in.args[0], in.ranges[0]);
           }};
 }
 

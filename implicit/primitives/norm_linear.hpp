@@ -1,0 +1,22 @@
+#pragma once
+// Linear bounds of norms of coordinates.
+#include "implicit/eval/linear_shapes.hpp"
+
+namespace blendwright::detail {
+
+/// Of a distance that is ray-linear about the origin and convex, with partials of at most `steepness`; or
+/// else concave in each octant, where it rises with every magnitude: everything() when the box is not in one.
+[[nodiscard]] LinearBound norm_bound(const Op& op, const void* body, const LinearInput& in, bool convex,
+                                     const Vec3& steepness);
+
+/// (a^n + b^n)^(1/n) of a, b >= 0: convex for n >= 1, concave for n <= 1. Ranges may reach below 0 by
+/// rounding.
+struct BoundedNumber {
+  LinearBound bound;
+  Range range;
+};
+[[nodiscard]] BoundedNumber norm_of_two(double n, const BoundedNumber& a, const BoundedNumber& b);
+/// |y_axis| times a factor > 0.
+[[nodiscard]] BoundedNumber coordinate_magnitude(const LinearInput& in, int axis, double factor);
+
+}  // namespace blendwright::detail
