@@ -63,11 +63,16 @@ void set_floors(const Seam& seam, const std::vector<SeamPiece>& pieces, SeamCert
   }
   enclose_all(seam, points, 0);
   for (const Figure& f : figures) {
-    double& floor = (certificate.*f.result).floor;
+    std::vector<double> widths;
     for (const SeamPiece& p : points) {
       const double width = (p.*f.bounds).hi - (p.*f.bounds).lo;
-      if (std::isfinite(width)) floor = std::max(floor, 4.0 * width);
+      if (std::isfinite(width)) widths.push_back(width);
     }
+    if (widths.empty()) continue;
+    std::sort(widths.begin(), widths.end());
+    const double usual = widths[widths.size() / 2];
+    for (const double width : widths)
+      if (width <= 64.0 * usual) (certificate.*f.result).floor = 4.0 * width;
   }
 }
 
