@@ -19,6 +19,15 @@ HWY_INLINE T signed_argument(const LogSumExp& b, const Inputs<T>& in, std::size_
   return in.arg(i) * argument_sign(b.role, i);
 }
 
+/// e^(-n (g_i - m)).
+template <class T>
+HWY_INLINE LaneOf<T> term(const LogSumExp& b, const Inputs<T>& in, std::size_t i, LaneOf<T> m) {
+  return lane::exp((value_of(signed_argument(b, in, i)) - m) * LaneOf<T>(-b.n));
+}
+
+// With the weights w_i the gradient is the mean of the arguments' gradients, and
+//   Hessian = sum w_i H_i - n sum w_i (g_i - mean)(g_i - mean)^T:
+// where one argument decides nothing cancels, however steep it is.
 template <class T>
 HWY_INLINE T evaluate(const LogSumExp& b, const Inputs<T>& in) {
   using L = LaneOf<T>;
@@ -26,11 +35,29 @@ HWY_INLINE T evaluate(const LogSumExp& b, const Inputs<T>& in) {
   for (std::size_t i = 1; i < in.args(); ++i) least = smaller(least, signed_argument(b, in, i));
   const L most = std::numeric_limits<double>::max(), v = value_of(least);
   const auto finite = lane::abs(v) <= most;
-  const L m = select(finite, v, L(0.0));  // counts as constant: the union does not depend on it
-  T sum = exponential((signed_argument(b, in, 0) - constant<T>(m)) * -b.n);
-  for (std::size_t i = 1; i < in.args(); ++i)
-    sum = sum + exponential((signed_argument(b, in, i) - constant<T>(m)) * -b.n);
-  const T all = logarithm(choose<T>(finite, sum, T(1.0))) * (-1.0 / b.n) + constant<T>(m);
+  const L m = select(finite, v, L(0.0));
+  L sum = term(b, in, 0, m);
+  for (std::size_t i = 1; i < in.args(); ++i) sum = sum + term(b, in, i, m);
+  sum = select(finite, sum, L(1.0));
+  T all = constant<T>(lane::log(sum) * L(-1.0 / b.n) + m);
+  if constexpr (NumberTraits<T>::order > 0) {
+    for (std::size_t i = 0; i < in.args(); ++i) {
+      const L weight = term(b, in, i, m) / sum;
+      const T x = signed_argument(b, in, i);
+      for (int c = 0; c < 3; ++c) all.d[c] = multiply_add(weight, x.d[c], all.d[c]);
+      if constexpr (NumberTraits<T>::order == 2)
+        for (int c = 0; c < 6; ++c) all.h[c] = multiply_add(weight, x.h[c], all.h[c]);
+    }
+    if constexpr (NumberTraits<T>::order == 2)
+      for (std::size_t i = 0; i < in.args(); ++i) {
+        const L bend = term(b, in, i, m) / sum * L(b.n);
+        const T x = signed_argument(b, in, i);
+        L off[3];
+        for (int c = 0; c < 3; ++c) off[c] = x.d[c] - all.d[c];
+        for (int c = 0; c < 6; ++c)
+          all.h[c] = all.h[c] - bend * (off[hessian_row[c]] * off[hessian_column[c]]);
+      }
+  }
   return choose<T>(finite, all, least) * result_sign(b.role);
 }
 

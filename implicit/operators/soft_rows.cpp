@@ -52,12 +52,12 @@ constexpr std::array rows{
              "the first soft object without the others, the dual of soft_blend", "after Blinn 1982",
              soft_params, make_operation_of<OperatorId::soft_difference>},
     NodeKind{"min", operation, "f = min(f1, f2, ...)",
-             "sharp union of levels zero and one, sharp intersection of half level", "Ricci 1973",
+             "sharp union of levels zero and one, sharp intersection of half level and functions", "Ricci 1973",
              sharp_params, make_operation_of<OperatorId::min>},
     NodeKind{"max", operation, "f = max(f1, f2, ...)",
-             "sharp intersection of levels zero and one, sharp union of half level", "Ricci 1973",
+             "sharp intersection of levels zero and one, sharp union of half level and functions", "Ricci 1973",
              sharp_params, make_operation_of<OperatorId::max>},
-    NodeKind{"complement", operation, "-g of level zero, 1/x of level one, 1 - f of half level",
+    NodeKind{"complement", operation, "-f of functions and level zero, 1/x of level one, 1 - f of half level",
              "everything outside the solid", "Ricci 1973", complement_params, make_complement},
 };
 

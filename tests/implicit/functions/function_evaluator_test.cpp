@@ -234,13 +234,11 @@ TEST(FunctionKinds, PassTheSuiteOnRandomSolids) {
     for_all(
         [&](Rng& rng) {
           const SceneSpec spec = random_scene_of(rng, *kind);
-          // Fields of solids round by some 1e-15 of terms that grow with the box; polynomials of them, by
-          // products of these.
           EXPECT_EQ(evaluator_faults(build_scene(spec).field, {.points = 40,
                                                                .boxes = 20,
                                                                .samples = 40,
                                                                .seed = rng.next(),
-                                                               .agreement = 1e-10,
+                                                               .agreement = agreement_of(spec),
                                                                .useless_share = 1.0}),
                     no_faults)
               << kind->name;

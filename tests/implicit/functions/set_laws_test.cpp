@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "implicit/operators/function_r.hpp"
+#include "implicit/primitives/quadric.hpp"
 #include "tests/implicit/functions/argument_tape.hpp"
 #include "tests/support/for_all.hpp"
 
@@ -161,6 +162,23 @@ TEST(RicciFunction, IsWithinItsDistanceOfMinAndMax) {
     const std::vector<double> same(k, 0.7);
     EXPECT_NEAR(value(ricci(n, Join::unite), same), 0.7 + gap, 1e-14 + 1e-15 * gap);
   });
+}
+
+/// Where one operand decides, its derivatives are the result's, however steep it is: x^2 times 1e9 against 0.
+TEST(RicciFunction, KeepsTheDerivativesOfTheOperandThatDecides) {
+  const Combination of_square = [combine = ricci(2.0, Join::unite)](TapeBuilder& tape,
+                                                                    std::span<const StepIndex> args) {
+    const auto square = std::make_shared<const detail::Perturbation>(detail::Perturbation{1e9, 2, 0.0});
+    const StepIndex both[] = {tape.add(square, Frame(), {args[0]}), tape.constant(0.0)};
+    return combine(tape, both);
+  };
+  const auto tape = combination_tape(of_square, 1);
+  const double x[] = {3.0}, y[] = {0.0};
+  double out[10];
+  tape->evaluate(Order::hessian, {x, y, y}, out);
+  EXPECT_EQ(out[0], 9e9);
+  EXPECT_EQ(out[1], 6e9);
+  EXPECT_EQ(out[4], 2e9);
 }
 
 }  // namespace

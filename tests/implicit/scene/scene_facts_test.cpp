@@ -202,8 +202,11 @@ TEST(RandomScenes, PassTheEvaluatorSuite) {
         SCOPED_TRACE(testing::PrintToString(spec.solid));
         const Scene scene = build_scene(spec);
         // Steep exponents and creases make many differences useless; the bodies' own tests compare theirs.
-        EXPECT_EQ(
-            evaluator_faults(scene.field, {.points = 60, .boxes = 20, .samples = 30, .useless_share = 1.0}),
+        EXPECT_EQ(evaluator_faults(scene.field, {.points = 60,
+                                                 .boxes = 20,
+                                                 .samples = 30,
+                                                 .agreement = agreement_of(spec),
+                                                 .useless_share = 1.0}),
             no_faults);
       },
       60);

@@ -364,6 +364,14 @@ inline SceneSpec random_scene(Rng& rng, int depth = 3) { return RandomScene(rng)
 inline SceneSpec random_scene(Rng& rng, Level level, int depth = 3) {
   return RandomScene(rng).make(level, depth);
 }
+/// How well vector and scalar values of a scene agree: differences of products of fields lose the digits that
+/// their terms have in common.
+inline double agreement_of(const SceneSpec& scene) {
+  for (const NodeSpec& node : scene.nodes)
+    if (node.kind.starts_with("liming") || node.kind.starts_with("r0m_") || node.kind == "rockwood_raw")
+      return 1e-9;
+  return 1e-12;
+}
 inline SceneSpec random_scene_of(Rng& rng, const NodeKind& kind) { return RandomScene(rng).of_kind(kind); }
 
 }  // namespace blendwright::test
