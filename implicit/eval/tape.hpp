@@ -11,6 +11,7 @@
 namespace blendwright {
 
 using StepIndex = std::uint32_t;
+struct LinearParts;
 
 /// One primitive of a scene: where its own value stands on the tape, for nearest_member.
 struct TapeMember {
@@ -39,6 +40,8 @@ class Tape final : public ScalarField::Model {
   [[nodiscard]] Range range(const Box& box) const override;
   /// From the operations' linear bounds, each the range where that is narrower; takes shortcuts like range().
   [[nodiscard]] LinearBound linear(const Box& box) const override;
+  /// The linear bounds of what minima and maxima at the end of the tape are made of (see LinearParts).
+  [[nodiscard]] LinearParts linear_parts(const Box& box, double sign) const;
   /// Takes the shortcuts of the operations: arguments and constants stand in for steps that equal them on the
   /// box, and steps (and members) that no longer matter are left out. An operation on constants is folded
   /// only by its own shortcut: vector and scalar kernels need not agree to the last bit.
@@ -78,9 +81,11 @@ class Tape final : public ScalarField::Model {
   }
 
   struct Walk;
+  struct Parts;
   void run(Order order, PointArrays points, KernelSet Op::*kernels, std::size_t lanes,
            std::span<double> out) const;
   void bound(const Box& box, Walk& walk) const;
+  void bound_linearly(const Box& box, Walk& walk) const;
   [[nodiscard]] std::shared_ptr<const Tape> shortened(Walk& walk) const;
   void keep_members(Walk& walk, Tape& shorter) const;
 

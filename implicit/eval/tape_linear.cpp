@@ -20,8 +20,8 @@ bool narrower(Range a, Range b) { return a.hi - a.lo < b.hi - b.lo; }
 
 }  // namespace
 
-LinearBound Tape::linear(const Box& box) const {
-  Walk& walk = Walk::mine();
+/// Like bound(), and the linear bounds of all steps.
+void Tape::bound_linearly(const Box& box, Walk& walk) const {
   bound(box, walk);
   walk.linear.resize(steps_.size());
   for (StepIndex i = 0; i < steps_.size(); ++i) {
@@ -45,7 +45,12 @@ LinearBound Tape::linear(const Box& box) const {
     const LinearBound found = step.op->linear(step.body ? step.body : &step.constant, in);
     if (narrower(found.rest, walk.linear[i].rest)) walk.linear[i] = found;
   }
-  return walk.linear.back();
+}
+
+LinearBound Tape::linear(const Box& box) const {
+  const Nested<Walk> nested;
+  bound_linearly(box, *nested);
+  return (*nested).linear.back();
 }
 
 }  // namespace blendwright
