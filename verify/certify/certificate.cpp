@@ -230,7 +230,7 @@ std::string shortfall(const SeamCertificate& c, Continuity asked, const Toleranc
     text += (text.empty() ? "" : "; ") + std::string(r.name);
     text += r.figure.agreed()
                 ? " proven" + bound + ", more than " + number_text(r.limit * r.factor, 3) + " " + r.unit
-                : " unproven" + bound + ": " + r.figure.unproven;
+                : " unproven" + (bound.empty() ? bound : "," + bound) + ": " + r.figure.unproven;
   }
   return text;
 }
