@@ -1,3 +1,4 @@
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // some of Boost.Geometry's own headers include others that say so
 #include "implicit/relations/broad_phase.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "implicit/relations/contact_point.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +29,9 @@ Jet jet_at(const Half& half, const Vec3& point) {
 /// The solution of m s = r on the eigenspaces of the symmetric m whose eigenvalues are larger than `cut` of
 /// the largest. Jacobi's method: turns in the planes (p, q) until the rest vanishes.
 Vector4 solve_symmetric(Matrix4 m, const Vector4& r, double cut) {
+  // |m| |m^-1| is at least the ratio of any two eigenvalues: below 1/cut nothing is cut off.
+  const Matrix4 inverse = m.inverse();
+  if (m.norm() * inverse.norm() < std::min(1.0 / cut, 1e6)) return inverse * r;
   Matrix4 v = Matrix4::Identity();
   for (int sweep = 0; sweep < 12; ++sweep) {
     double rest = 0.0;
@@ -36,8 +40,10 @@ Vector4 solve_symmetric(Matrix4 m, const Vector4& r, double cut) {
         rest += m(p, q) * m(p, q);
         if (m(p, q) == 0.0) continue;
         const double theta = (m(q, q) - m(p, p)) / (2.0 * m(p, q));
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
-        const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
+        const double size = std::abs(theta);
+        const double t =
+            size > 1e8 ? 0.5 / theta : std::copysign(1.0, theta) / (size + std::sqrt(size * size + 1.0));
+        const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
         for (int k = 0; k < 4; ++k) {
           const double a = m(k, p), b = m(k, q);
           m(k, p) = c * a - s * b;
@@ -102,7 +108,8 @@ std::optional<ContactPoint> newton(const Half& first, const Half& second, const 
     Vec3 move = reach * solve_symmetric(m, r, cut).head<3>();
     if (!move.allFinite()) return std::nullopt;
     if (const double length = move.norm(); length > reach) move *= reach / length;
-    const bool last = move.norm() <= 1e-15 * (x.norm() + reach);
+    // Steps square their relative size, so the one after this would be lost in rounding.
+    const bool last = move.norm() <= 1e-8 * reach;
     const Vec3 next = x + move;
     if (!((next - start).norm() <= far)) break;
     x = next;

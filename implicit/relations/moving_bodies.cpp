@@ -1,20 +1,27 @@
 #include "implicit/relations/moving_bodies.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "implicit/relations/broad_phase.hpp"
+#include "implicit/relations/contact_point.hpp"
+#include "implicit/relations/linear_refutation.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/base/parallel_for.hpp"
 
 namespace blendwright {
 namespace {
 
+using detail::ContactPoint;
+using detail::Half;
 using detail::OrientedBox;
 
-/// What is remembered of a pair that was not disjoint: where, in the coordinates of each body.
+/// What is remembered of a pair: where it was in contact or nearest, in the coordinates of each body.
 struct Memory {
   std::size_t first = 0, second = 0;
   Vec3 in_first = Vec3::Zero(), in_second = Vec3::Zero();
+  bool contact = false;
 };
 bool before(const Memory& a, const Memory& b) {
   return a.first != b.first ? a.first < b.first : a.second < b.second;
@@ -27,6 +34,107 @@ struct Placed {
   std::vector<OrientedBox> oriented;
 };
 
+/// A point near the deepest or nearest one, and which of them it was.
+struct Start {
+  Vec3 point;
+  bool contact;
+};
+
+/// What was found of a pair, and where to start at the next step.
+struct Decision {
+  Collision collision;
+  std::optional<Vec3> start;
+};
+
+/// From the first body to the second; nullopt without gradients.
+std::optional<Vec3> normal_of(const ContactPoint& at) {
+  const Vec3 mean = at.g2.normalized() - at.g1.normalized();
+  const double length = mean.norm();
+  return length > 1e-3 ? std::optional<Vec3>(mean / length) : std::nullopt;
+}
+
+/// Two bodies, and the box that holds whatever they may have in common.
+class NearPair {
+ public:
+  NearPair(const ScalarField& first, const ScalarField& second, const SearchOptions& options)
+      : halves_{Half{&first}, Half{&second}}, options_(options) {}
+
+  /// What can be said from a point near the nearest or deepest one: a contact that a search without a start
+  /// cannot miss, or a gap.
+  [[nodiscard]] std::optional<Decision> from(const Start& last) const {
+    const Vec3& start = last.point;
+    if (!last.contact && separated_around(start)) return apart(start, std::nullopt, 1);
+    const auto near = settled_from(start);
+    if (!near) return std::nullopt;
+    if (near->depth < 0.0) {
+      if (!separated_around(near->point)) return std::nullopt;
+      return apart(near->point, near, 2);
+    }
+    if (!options_.domain->contains(near->point) || !cube_belongs(near->point)) return std::nullopt;
+    Decision found = at_point(Contact::contact, *near);
+    found.collision.boxes = 1;
+    return found;
+  }
+
+  [[nodiscard]] Decision search(const Progress& progress) const {
+    Decision found{collide(*halves_[0].field, *halves_[1].field, options_, std::nullopt, progress), {}};
+    found.start = found.collision.point;
+    if (!found.start && found.collision.boxes > 1)
+      if (const auto near = settled_from(options_.domain->centre())) found.start = near->point;
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::optional<ContactPoint> settled_from(const Vec3& start) const {
+    auto near = contact_point(halves_[0], halves_[1], start, options_.domain->size().maxCoeff());
+    if (near && !near->settled) near.reset();
+    return near;
+  }
+
+  /// Whether a convex combination of both is < 0 on the box around the domain that has this centre. At the
+  /// nearest points the gradients are opposite, so there the linear parts cancel on the largest boxes.
+  [[nodiscard]] bool separated_around(const Vec3& centre) const {
+    const Box& domain = *options_.domain;
+    const Vec3 half = (domain.hi - centre).cwiseMax(centre - domain.lo).cwiseMax(0.0);
+    const Box box{centre - half * (1.0 + 1e-15), centre + half * (1.0 + 1e-15)};
+    std::array<LinearBound, 2> bounds;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double sign = halves_[i].sign(), shift = -sign * surface_value(halves_[i].field->level());
+      bounds[i] = sign * halves_[i].field->linear(box);
+      if (shift != 0.0) bounds[i] = bounds[i] + constant_bound({shift, shift});
+    }
+    return detail::highest_point(bounds, half.maxCoeff()).upper < 0.0;
+  }
+
+  /// Whether a whole cube of the tolerance's size around the point belongs to both.
+  [[nodiscard]] bool cube_belongs(const Vec3& point) const {
+    const Vec3 half = Vec3::Constant(options_.tolerance);
+    const Box cube{point - half, point + half};
+    return std::ranges::all_of(halves_, [&](const Half& h) { return h.holds(h.psi(h.field->range(cube))); });
+  }
+
+  [[nodiscard]] static Decision apart(const Vec3& start, const std::optional<ContactPoint>& near,
+                                      std::size_t boxes) {
+    Decision found;
+    if (near) found = at_point(Contact::disjoint, *near);
+    found.collision.contact = Contact::disjoint;
+    found.collision.boxes = boxes;
+    found.start = start;
+    return found;
+  }
+  [[nodiscard]] static Decision at_point(Contact contact, const ContactPoint& near) {
+    Decision found;
+    found.collision.contact = contact;
+    found.collision.point = found.start = near.point;
+    found.collision.normal = normal_of(near);
+    found.collision.gap = near.gap();
+    return found;
+  }
+
+  std::array<Half, 2> halves_;
+  const SearchOptions& options_;
+};
+
 }  // namespace
 
 struct MovingBodies::State {
@@ -35,10 +143,10 @@ struct MovingBodies::State {
   std::vector<Memory> last;  ///< in the order of before()
 
   [[nodiscard]] Placed placed_at(std::span<const RigidMotion> placements) const;
-  [[nodiscard]] const Memory* memory_of(std::size_t first, std::size_t second) const;
-  [[nodiscard]] Collision decide(const Placed& now, std::span<const RigidMotion> placements,
-                                 std::size_t first, std::size_t second, const Progress& progress) const;
-  [[nodiscard]] bool fat(const ScalarField& first, const ScalarField& second, const Vec3& point) const;
+  [[nodiscard]] std::optional<Start> start_of(std::span<const RigidMotion> placements, std::size_t first,
+                                              std::size_t second) const;
+  [[nodiscard]] Decision decide(const Placed& now, std::span<const RigidMotion> placements, std::size_t first,
+                                std::size_t second, const Progress& progress) const;
 };
 
 MovingBodies::MovingBodies(std::vector<ScalarField> bodies, SearchOptions options)
@@ -52,6 +160,9 @@ MovingBodies::MovingBodies(std::vector<ScalarField> bodies, SearchOptions option
                                                            ? "is unbounded, must lie in a finite box"
                                                            : "has no known bounds, must lie in a known box"});
   }
+  const double tolerance = state_->options.tolerance;
+  if (!(tolerance > 0.0) || !std::isfinite(tolerance))
+    problems.push_back({"tolerance", "is " + number_text(tolerance) + ", must be a length > 0"});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 MovingBodies::~MovingBodies() = default;
@@ -85,27 +196,18 @@ Placed MovingBodies::State::placed_at(std::span<const RigidMotion> placements) c
   return now;
 }
 
-const Memory* MovingBodies::State::memory_of(std::size_t first, std::size_t second) const {
+std::optional<Start> MovingBodies::State::start_of(std::span<const RigidMotion> placements, std::size_t first,
+                                                   std::size_t second) const {
   const auto found = std::ranges::lower_bound(last, Memory{first, second}, before);
-  return found != last.end() && found->first == first && found->second == second ? &*found : nullptr;
+  if (found == last.end() || found->first != first || found->second != second) return std::nullopt;
+  return Start{0.5 * (placements[first](found->in_first) + placements[second](found->in_second)),
+               found->contact};
 }
 
-/// Whether a whole cube of the tolerance's size around the point belongs to both: a search without a start
-/// cannot miss that.
-bool MovingBodies::State::fat(const ScalarField& first, const ScalarField& second, const Vec3& point) const {
-  const Vec3 half = Vec3::Constant(options.tolerance);
-  const Box cube{point - half, point + half};
-  const auto belongs = [&cube](const ScalarField& f) {
-    const Range r = f.range(cube);
-    return std::min(inside(f.level(), r.lo), inside(f.level(), r.hi)) >= 0.0;
-  };
-  return belongs(first) && belongs(second);
-}
-
-Collision MovingBodies::State::decide(const Placed& now, std::span<const RigidMotion> placements,
-                                      std::size_t first, std::size_t second, const Progress& progress) const {
-  Collision apart;
-  apart.contact = Contact::disjoint;
+Decision MovingBodies::State::decide(const Placed& now, std::span<const RigidMotion> placements,
+                                     std::size_t first, std::size_t second, const Progress& progress) const {
+  Decision apart;
+  apart.collision.contact = Contact::disjoint;
   if (detail::apart(now.oriented[first], now.oriented[second])) return apart;
   SearchOptions there = options;
   if (!there.domain) {
@@ -113,13 +215,10 @@ Collision MovingBodies::State::decide(const Placed& now, std::span<const RigidMo
     there.domain = both ? detail::common_box(*both, now.oriented[first], now.oriented[second]) : both;
     if (!there.domain) return apart;
   }
-  const ScalarField &a = now.fields[first], &b = now.fields[second];
-  if (const Memory* m = memory_of(first, second)) {
-    const Vec3 start = 0.5 * (placements[first](m->in_first) + placements[second](m->in_second));
-    Collision found = collide(a, b, there, start, progress);
-    if (found.contact != Contact::contact || fat(a, b, *found.point)) return found;
-  }
-  return collide(a, b, there, std::nullopt, progress);
+  const NearPair pair(now.fields[first], now.fields[second], there);
+  if (const std::optional<Start> start = start_of(placements, first, second); start && !there.keep_cells)
+    if (std::optional<Decision> found = pair.from(*start)) return *std::move(found);
+  return pair.search(progress);
 }
 
 std::vector<BodyPair> MovingBodies::at(std::span<const RigidMotion> placements, bool all,
@@ -134,19 +233,26 @@ std::vector<BodyPair> MovingBodies::at(std::span<const RigidMotion> placements, 
   Progress silent;  // pairs are decided on many threads
   silent.stop = progress.stop;
   std::vector<BodyPair> pairs(candidates.size());
+  std::vector<std::optional<Vec3>> starts(candidates.size());
   parallel_for(pairs.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       silent.at(0.0, "deciding pairs of bodies");
       const auto [first, second] = candidates[i];
-      pairs[i] = {first, second, state_->decide(now, placements, first, second, silent)};
+      Decision found = state_->decide(now, placements, first, second, silent);
+      pairs[i] = {first, second, std::move(found.collision)};
+      starts[i] = found.start;
     }
   });
 
   std::vector<Memory> last;
-  for (const BodyPair& p : pairs)
-    if (p.collision.contact != Contact::disjoint && p.collision.point)
-      last.push_back({p.first, p.second, inverse(placements[p.first])(*p.collision.point),
-                      inverse(placements[p.second])(*p.collision.point)});
+  last.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!starts[i]) continue;
+    const auto [first, second] = candidates[i];
+    last.push_back({first, second, inverse(placements[first])(*starts[i]),
+                    inverse(placements[second])(*starts[i]),
+                    pairs[i].collision.contact != Contact::disjoint});
+  }
   state_->last = std::move(last);
   if (!all) std::erase_if(pairs, [](const BodyPair& p) { return p.collision.contact == Contact::disjoint; });
   progress.at(1.0, "deciding pairs of bodies");

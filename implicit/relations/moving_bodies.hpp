@@ -15,8 +15,8 @@ struct BodyPair {
 
 class MovingBodies {
  public:
-  /// Each body in its own coordinates. Throws InputError ("bodies") when fewer than two, or when the bounds
-  /// of one are not known or not finite.
+  /// Each body in its own coordinates. Throws InputError ("bodies" when fewer than two, "bodies/i" when the
+  /// bounds of one are not known or not finite, "tolerance").
   MovingBodies(std::vector<ScalarField> bodies, SearchOptions options);
   ~MovingBodies();
   MovingBodies(MovingBodies&&) noexcept;
@@ -26,7 +26,8 @@ class MovingBodies {
   /// All pairs that are in contact or undecided at these placements, one per body, ordered by (first,
   /// second); with `all` also the disjoint ones whose boxes meet. What was found last time is where the
   /// search starts now; the answers do not depend on it, on the order of calls or on the number of threads;
-  /// box counts and witnesses may depend on the calls before. Throws InputError ("placements"), Cancelled.
+  /// box counts and witnesses may depend on the calls before. Throws InputError ("placements", or
+  /// "placements/i" for one that is no rigid motion), Cancelled; nothing is remembered then.
   [[nodiscard]] std::vector<BodyPair> at(std::span<const RigidMotion> placements, bool all = false,
                                          const Progress& progress = {});
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tests/bench/numbers.hpp"
 #include "tests/bench/plain_fields.hpp"
 
 namespace blendwright::bench {
@@ -76,6 +77,14 @@ SceneSpec sixball() {
   return scene;
 }
 
+/// 1 - |local / radii|^2.
+std::array<double, 10> quadric(const Ellipsoid& e) {
+  const Eigen::Matrix3d m = e.radii.cwiseInverse().asDiagonal() * e.axes, a = m.transpose() * m;
+  const Vec3 b = a * e.centre;
+  return {-a(0, 0),       -a(1, 1),    -a(2, 2),    -2.0 * a(0, 1), -2.0 * a(0, 2),
+          -2.0 * a(1, 2), 2.0 * b.x(), 2.0 * b.y(), 2.0 * b.z(),    1.0 - e.centre.dot(b)};
+}
+
 SceneSpec soft_sum(const std::vector<Ellipsoid>& ellipsoids) {
   SceneSpec scene;
   std::vector<NodeRef> members;
@@ -100,24 +109,47 @@ SceneSpec soft_sum(const std::vector<Ellipsoid>& ellipsoids) {
 }  // namespace
 
 std::vector<Ellipsoid> random_ellipsoids(std::size_t count) {
-  std::uint64_t state = count;
-  const auto next = [&] {  // splitmix64, top 53 bits
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15ull);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-  };
+  Numbers numbers{count};
   const double size = std::cbrt(100.0 / static_cast<double>(count));
   std::vector<Ellipsoid> ellipsoids(count);
   for (Ellipsoid& e : ellipsoids) {
-    for (int i = 0; i < 3; ++i) e.centre[i] = -10.0 + 20.0 * next();
-    for (int i = 0; i < 3; ++i) e.radii[i] = size * (2.0 + 4.0 * next());
-    const double u = next(), v = 2.0 * std::numbers::pi * next(), w = 2.0 * std::numbers::pi * next();
-    const double a = std::sqrt(1.0 - u), b = std::sqrt(u);
-    e.axes = Eigen::Quaterniond(b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w))
-                 .toRotationMatrix();
+    for (int i = 0; i < 3; ++i) e.centre[i] = -10.0 + 20.0 * numbers.next();
+    for (int i = 0; i < 3; ++i) e.radii[i] = size * (2.0 + 4.0 * numbers.next());
+    e.axes = numbers.turn();
   }
   return ellipsoids;
+}
+
+Freeform random_freeform(std::size_t bumps, double size, std::uint64_t seed) {
+  Numbers numbers{seed};
+  const Vec3 base = size * Vec3(10.0, 9.0, 8.0);
+  Freeform freeform{quadric({Vec3::Zero(), base, Eigen::Matrix3d::Identity()}), {}};
+  for (std::size_t i = 0; i < bumps; ++i) {
+    Ellipsoid e;
+    e.axes = numbers.turn();
+    e.centre = base.cwiseProduct(e.axes.col(0));
+    for (int k = 0; k < 3; ++k) e.radii[k] = size * (2.0 + 3.0 * numbers.next());
+    const double weight = 0.2 + 0.6 * numbers.next();
+    freeform.bumps.push_back({quadric(e), i % 3 == 2 ? -weight : weight});
+  }
+  return freeform;
+}
+
+std::vector<NodeSpec> freeform_nodes(const Freeform& freeform, const std::string& name) {
+  const auto node = [](const std::string& of, const std::array<double, 10>& q) {
+    return NodeSpec{of, "quadric", Values{{"coefficients", std::vector<double>(q.begin(), q.end())}}};
+  };
+  std::vector<NodeSpec> nodes{node(name + " base", freeform.base)};
+  std::vector<NodeRef> bumps;
+  for (const Freeform::Bump& b : freeform.bumps) {
+    const std::string id = name + " " + std::to_string(bumps.size());
+    nodes.push_back(node(id + " q", b.q));
+    nodes.push_back(
+        {id, "perturbation", Values{{"of", NodeRef{id + " q"}}, {"weight", b.weight}, {"power", 3.0}}});
+    bumps.push_back({id});
+  }
+  nodes.push_back({name, "freeform", Values{{"base", NodeRef{name + " base"}}, {"bumps", std::move(bumps)}}});
+  return nodes;
 }
 
 FieldModel field_model(const std::string& name) {
@@ -129,6 +161,13 @@ FieldModel field_model(const std::string& name) {
   if (name.starts_with("soft")) {
     const std::vector<Ellipsoid> ellipsoids = random_ellipsoids(std::stoul(name.substr(4)));
     return {name, soft_sum(ellipsoids), plain_soft_sum(ellipsoids)};
+  }
+  if (name.starts_with("bumps")) {
+    const Freeform freeform = random_freeform(std::stoul(name.substr(5)), 1.0, 20);
+    SceneSpec scene;
+    scene.nodes = freeform_nodes(freeform, "body");
+    scene.solid = "body";
+    return {name, scene, plain_freeform(freeform)};
   }
   throw std::runtime_error("no model " + name);
 }

@@ -7,6 +7,9 @@
 //                 circumradius 12, scale union r1 = r2 = 0.5, p = 0
 //   sixball       a sphere of radius 15, ray-scaled by a cube-like object of exponent 7, power 3
 //   soft<N>       soft sum of N random ellipsoids
+//   bumps<N>      an ellipsoid with N perturbations, bumps and dents, of power 3
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -28,7 +31,7 @@ struct FieldModel {
 
 inline const Box model_box{Vec3::Constant(-16.0), Vec3::Constant(16.0)};
 
-/// "blend", "vir06", "vir2", "ring", "sixball" or "soft" with a number.
+/// "blend", "vir06", "vir2", "ring", "sixball", or "soft" or "bumps" with a number.
 [[nodiscard]] FieldModel field_model(const std::string& name);
 
 /// A member of soft<N>: local coordinates are the rows of `axes` times (x - centre).
@@ -41,5 +44,20 @@ struct Ellipsoid {
 /// for the orientation, the unit quaternion (sqrt(1-u) sin 2 pi v, sqrt(1-u) cos 2 pi v, sqrt(u) sin 2 pi w,
 /// sqrt(u) cos 2 pi w) in the order x, y, z, w (Shoemake 1992).
 [[nodiscard]] std::vector<Ellipsoid> random_ellipsoids(std::size_t count);
+
+/// f = Q(x) + sum w_i max(q_i(x), 0)^3 with quadrics A11 A22 A33 A12 A13 A23 A14 A24 A34 A44; inside: f >= 0.
+struct Freeform {
+  struct Bump {
+    std::array<double, 10> q;
+    double weight;
+  };
+  std::array<double, 10> base;
+  std::vector<Bump> bumps;
+};
+/// Around the origin: an ellipsoid of semi-axes size * (10, 9, 8) and ellipsoids of semi-axes size * [2, 5)
+/// centred on its surface, turned at random; weights in [0.2, 0.8), every third negative.
+[[nodiscard]] Freeform random_freeform(std::size_t bumps, double size, std::uint64_t seed);
+/// Its nodes; the last one, called `name`, is the solid.
+[[nodiscard]] std::vector<NodeSpec> freeform_nodes(const Freeform& freeform, const std::string& name);
 
 }  // namespace blendwright::bench

@@ -65,5 +65,6 @@ BENCHMARK_CAPTURE(FieldValuesPerCore, ring, "ring")->Unit(benchmark::kMillisecon
 BENCHMARK_CAPTURE(FieldValuesPerCore, sixball, "sixball")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(FieldValuesPerCore, soft100, "soft100")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(FieldValuesPerCore, soft1000, "soft1000")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(FieldValuesPerCore, bumps20, "bumps20")->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -132,4 +132,17 @@ PlainLoop plain_soft_sum(const std::vector<Ellipsoid>& ellipsoids) {
   });
 }
 
+PlainLoop plain_freeform(const Freeform& freeform) {
+  const auto value = [](const std::array<double, 10>& a, double x, double y, double z) {
+    return x * (a[0] * x + a[3] * y + a[4] * z + a[6]) + y * (a[1] * y + a[5] * z + a[7]) +
+           z * (a[2] * z + a[8]) + a[9];
+  };
+  return loop([freeform, value](double x, double y, double z) {
+    double f = value(freeform.base, x, y, z);
+    for (const Freeform::Bump& bump : freeform.bumps)
+      if (const double q = value(bump.q, x, y, z); q > 0.0) f += bump.weight * q * q * q;
+    return f;
+  });
+}
+
 }  // namespace blendwright::bench

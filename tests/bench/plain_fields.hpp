@@ -11,5 +11,6 @@ namespace blendwright::bench {
 [[nodiscard]] PlainLoop plain_ring();
 [[nodiscard]] PlainLoop plain_sixball();
 [[nodiscard]] PlainLoop plain_soft_sum(const std::vector<Ellipsoid>& ellipsoids);
+[[nodiscard]] PlainLoop plain_freeform(const Freeform& freeform);
 
 }  // namespace blendwright::bench
