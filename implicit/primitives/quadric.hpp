@@ -64,7 +64,8 @@ struct QuadricTop {
   double uncertainty = 0.0;   ///< of all three, relative to the terms that they are made of
 };
 [[nodiscard]] std::optional<QuadricTop> top_of(const QuadricCoefficients& a);
-/// Encloses { Q >= value }; the point of the top when that is empty; nullopt: unbounded.
+/// Encloses { Q >= value }; the point of the top when that is empty. Of quadrics without cross terms also where
+/// only some directions are bounded (ends may be infinite); nullopt: unbounded, or not known.
 [[nodiscard]] std::optional<Box> quadric_region(const QuadricCoefficients& a, double value);
 
 }  // namespace blendwright::detail

@@ -15,6 +15,48 @@ Eigen::Matrix3d quadratic_part(const QuadricCoefficients& a) {
 }
 Vec3 linear_part(const QuadricCoefficients& a) { return {a[6], a[7], a[8]}; }
 
+/// a x^2 + b x: its largest value (infinite when there is none).
+double largest_term(double a, double b) {
+  if (a < 0.0) return 0.25 * b * b / -a;
+  return a == 0.0 && b == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+/// Where a x^2 + b x >= needed; everything when that is not bounded. `slack`: of needed.
+Range where_term_reaches(double a, double b, double needed, double slack) {
+  constexpr double relative = 16.0 * std::numeric_limits<double>::epsilon();
+  if (a < 0.0) {
+    const double at = -0.5 * b / a;
+    const double square = std::max(0.0, (largest_term(a, b) - needed + slack) / -a);
+    const double half = (1.0 + relative) * std::sqrt(square) + relative * std::abs(at);
+    return {at - half, at + half};
+  }
+  if (a > 0.0 || b == 0.0) return Range::everything();
+  const double end = (needed - slack) / b, room = relative * std::abs(end);
+  return b > 0.0 ? Range{end - room, Range::everything().hi} : Range{Range::everything().lo, end + room};
+}
+
+/// Of quadrics without cross terms that are not bounded in every direction: cylinders and slabs along the
+/// axes, half-spaces. Each axis is bounded as far as the two others leave it no more than their largest
+/// values.
+std::optional<Box> separate_region(const QuadricCoefficients& a, double value) {
+  if (a[3] != 0.0 || a[4] != 0.0 || a[5] != 0.0) return std::nullopt;
+  Box box{Vec3::Constant(Range::everything().lo), Vec3::Constant(Range::everything().hi)};
+  const Vec3 square(a[0], a[1], a[2]), line = linear_part(a);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double others = largest_term(square[j], line[j]) + largest_term(square[k], line[k]);
+    if (!std::isfinite(others)) continue;
+    const double slack = 8.0 * std::numeric_limits<double>::epsilon() *
+                         (std::abs(value) + std::abs(a[9]) + others +
+                          (square[i] < 0.0 ? largest_term(square[i], line[i]) : 0.0));
+    const Range r = where_term_reaches(square[i], line[i], value - a[9] - others, slack);
+    box.lo[i] = r.lo;
+    box.hi[i] = r.hi;
+  }
+  if (box.lo.array().isInf().all() && box.hi.array().isInf().all()) return std::nullopt;
+  return box;
+}
+
 }  // namespace
 
 QuadricCoefficients seen_through(const QuadricCoefficients& a, const Frame& frame) {
@@ -47,7 +89,7 @@ std::optional<QuadricTop> top_of(const QuadricCoefficients& a) {
 
 std::optional<Box> quadric_region(const QuadricCoefficients& a, double value) {
   const std::optional<QuadricTop> top = top_of(a);
-  if (!top) return std::nullopt;
+  if (!top) return separate_region(a, value);
   if (!(value <= top->value)) return Box{top->at, top->at};
   // What rounding can change, relative to the terms that were added up.
   const double e = top->uncertainty;

@@ -77,7 +77,7 @@ void warn_of_support(NodeInputs& in, const Node& q, double free_term) {
     in.warning("of", "is " + number_text(top->value, 4) +
                          " at most, which with the free term is not > 0: the support is empty, and the "
                          "perturbation is 0 everywhere");
-  else if (!q.region(-free_term))
+  else if (const std::optional<Box> support = q.region(-free_term); !support || !support->finite())
     in.warning("of",
                "has an unbounded support (or one without a known bound): boxes far away cannot leave "
                "the perturbation out");

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "implicit/scene/node.hpp"
 
@@ -13,6 +14,24 @@ using Type = NodeParam::Type;
 /// Whether the map turns or mirrors and no more, but for what rounding does to a turn.
 bool keeps_lengths(const Eigen::Matrix3d& m) {
   return (m * m.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-14;
+}
+
+/// The box, ends of which may be infinite, where the frame's local coordinates come from it; nullopt: not
+/// known, for a box without end that is turned.
+std::optional<Box> seen_box(const Box& box, const Frame& frame) {
+  if (box.finite()) return frame.scene(box);
+  if (!frame.matrix.isDiagonal(0.0)) return std::nullopt;
+  Box seen;
+  constexpr double relative = 8.0 * std::numeric_limits<double>::epsilon();
+  for (int i = 0; i < 3; ++i) {
+    const double factor = frame.matrix(i, i), offset = frame.offset[i];
+    const double a = (box.lo[i] - offset) / factor, b = (box.hi[i] - offset) / factor;
+    const double room = relative * std::abs(offset / factor);
+    const Range ends = Range{std::min(a, b), std::max(a, b)}.widened(relative);
+    seen.lo[i] = ends.lo - room;
+    seen.hi[i] = ends.hi + room;
+  }
+  return seen;
 }
 
 /// The node `of` in the coordinates that `frame` turns into its own. Values do not change; a ray-linear
@@ -35,9 +54,9 @@ Node placed(const std::shared_ptr<const Node>& of, const Frame& frame) {
   };
   node.region = [of, frame](double value) -> std::optional<Box> {
     const std::optional<Box> box = of->region(value);
-    if (!box || !box->finite()) return std::nullopt;
-    return frame.scene(*box);
+    return box ? seen_box(*box, frame) : std::nullopt;
   };
+  node.under = of;
   node.detail = std::make_shared<const Frame>(frame);
   return node;
 }

@@ -160,12 +160,55 @@ TEST(QuadricRegion, HoldsAnEllipsoidAndIsTight) {
   });
 }
 
+TEST(QuadricRegion, OfAxisAlignedSolidsHasTheEndsThatThereAre) {
+  const double inf = std::numeric_limits<double>::infinity();
+  // Ends move out by 8 eps of the terms, whose sum is below 20 here, and 16 eps of themselves: below 1e-13.
+  // Ball of radius 2 about x = 1 in the first two axes: a cylinder; slabs; half-spaces; a parabolic trough.
+  const auto cylinder = detail::quadric_region({-1, -1, 0, 0, 0, 0, 2, 0, 0, 3}, 0.0);
+  ASSERT_TRUE(cylinder);
+  EXPECT_NEAR(cylinder->lo.x(), -1.0, 1e-13);
+  EXPECT_NEAR(cylinder->hi.x(), 3.0, 1e-13);
+  EXPECT_NEAR(cylinder->hi.y(), 2.0, 1e-13);
+  EXPECT_EQ(cylinder->lo.z(), -inf);
+  EXPECT_EQ(cylinder->hi.z(), inf);
+  const auto slab = detail::quadric_region({0, 0, -1, 0, 0, 0, 0, 0, 5, 0}, 0.0);
+  ASSERT_TRUE(slab);
+  EXPECT_NEAR(slab->lo.z(), 0.0, 1e-13);
+  EXPECT_NEAR(slab->hi.z(), 5.0, 1e-13);
+  EXPECT_EQ(slab->hi.x(), inf);
+  const auto half = detail::quadric_region({0, 0, 0, 0, 0, 0, -2, 0, 0, 6}, 0.0);
+  ASSERT_TRUE(half);
+  EXPECT_NEAR(half->hi.x(), 3.0, 1e-13);
+  EXPECT_EQ(half->lo.x(), -inf);
+  const auto trough = detail::quadric_region({-1, 0, 0, 0, 0, 0, 0, 0, -1, 4}, 0.0);  // z <= 4 - x^2
+  ASSERT_TRUE(trough);
+  EXPECT_EQ(trough->lo.x(), -inf);
+  EXPECT_NEAR(trough->hi.z(), 4.0, 1e-13);
+}
+
+TEST(QuadricRegion, HoldsEveryPointOfAxisAlignedSolids) {
+  for_all([](Rng& rng) {
+    QuadricCoefficients a{};
+    for (const int i : {0, 1, 2, 6, 7, 8})
+      if (integer(rng, 0, 1) == 1)
+        a[static_cast<std::size_t>(i)] = uniform(rng, i < 3 ? -2.0 : -3.0, i < 3 ? 0.0 : 3.0);
+    a[9] = uniform(rng, -2.0, 5.0);
+    const double value = uniform(rng, -3.0, 3.0);
+    const auto box = detail::quadric_region(a, value);
+    if (!box) return;
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 p(uniform(rng, -6, 6), uniform(rng, -6, 6), uniform(rng, -6, 6));
+      if (value_at(a, p) >= value) {
+        EXPECT_TRUE(box->contains(p)) << p.transpose();
+      }
+    }
+  });
+}
+
 TEST(QuadricRegion, IsUnboundedForAllButEllipsoids) {
   for (const QuadricCoefficients& a :
-       {QuadricCoefficients{-1, -1, 0, 0, 0, 0, 0, 0, 0, 1},    // cylinder
-        QuadricCoefficients{-1, -1, 1, 0, 0, 0, 0, 0, 0, 1},    // hyperboloid
+       {QuadricCoefficients{-1, -1, 1, 0, 0, 0, 0, 0, 0, 1},    // hyperboloid
         QuadricCoefficients{1, 1, 1, 0, 0, 0, 0, 0, 0, -1},     // outside of a ball
-        QuadricCoefficients{0, 0, 0, 0, 0, 0, 1, 0, 0, 0},      // half of space
         QuadricCoefficients{-1, -1, -1, 2, 0, 0, 0, 0, 0, 1}})  // -(x-y)^2-z^2+1
     EXPECT_FALSE(detail::quadric_region(a, 0.0));
   EXPECT_TRUE(detail::quadric_region({-1, -1, -1, 0, 0, 0, 0, 0, 0, 1}, 0.0));
