@@ -5,6 +5,8 @@
 #include <limits>
 #include <new>
 
+#include "implicit/eval/nested.hpp"
+
 namespace blendwright {
 namespace {
 
@@ -42,11 +44,6 @@ class Workspace {
   std::size_t size_ = 0;
   std::vector<const double*> args_;
 };
-
-Workspace& workspace() {
-  thread_local Workspace mine;
-  return mine;
-}
 
 /// One batch of points, padded with the last one, and the slots of a tape.
 struct Batch {
@@ -89,7 +86,8 @@ void Tape::run(Order order, PointArrays points, KernelSet Op::*kernels, std::siz
                std::span<double> out) const {
   const auto o = static_cast<std::size_t>(order);
   const std::size_t n = points.size(), stride = batch_size * components(order);
-  Workspace& work = workspace();
+  const Nested<Workspace> nested;
+  Workspace& work = *nested;
   Batch batch(work.numbers(Batch::size(slots_, order)));
   for (std::size_t first = 0; first < n; first += batch_size) {
     batch.load(points, first, lanes);
@@ -149,7 +147,8 @@ void Tape::nearest_member(PointArrays points, std::span<std::uint32_t> out) cons
   StepIndex end = 0;  // of the steps that are members
   for (const Member& m : members_)
     if (!m.merged()) end = m.at.step + 1;
-  Workspace& work = workspace();
+  const Nested<Workspace> nested;
+  Workspace& work = *nested;
   Batch batch(work.numbers(Batch::size(slots_ + 1, Order::gradient)));
   for (std::size_t first = 0; first < points.size(); first += batch_size) {
     batch.load(points, first, widest);

@@ -111,13 +111,15 @@ void Tape::keep_members(Walk& walk, Tape& shorter) const {
 }
 
 Range Tape::range(const Box& box) const {
-  Walk& walk = Walk::mine();
+  const Nested<Walk> nested;
+  Walk& walk = *nested;
   bound(box, walk);
   return walk.ranges.back();
 }
 
 ScalarField::Model::Within Tape::within(const Box& box) const {
-  Walk& walk = Walk::mine();
+  const Nested<Walk> nested;
+  Walk& walk = *nested;
   bound(box, walk);
   return {walk.ranges.back(), walk.shorter ? shortened(walk) : nullptr};
 }

@@ -2,11 +2,12 @@
 // What walks over a tape share.
 #include <vector>
 
+#include "implicit/eval/nested.hpp"
 #include "implicit/eval/tape.hpp"
 
 namespace blendwright {
 
-/// What a walk over a tape finds out about a box; kept per thread, so that a walk allocates nothing.
+/// What a walk over a tape finds out about a box; kept (see Nested), so that a walk allocates nothing.
 struct Tape::Walk {
   std::vector<Box> boxes;           ///< of the frames
   std::vector<Range> ranges;        ///< of the steps
@@ -33,11 +34,6 @@ struct Tape::Walk {
       kept.push_back(frames[f]);
     }
     return frame_place[f];
-  }
-
-  static Walk& mine() {
-    thread_local Walk walk;
-    return walk;
   }
 };
 

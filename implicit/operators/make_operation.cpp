@@ -1,5 +1,6 @@
 // From the values of an operation to its node: levels, facts and region.
 #include <algorithm>
+#include <cmath>
 
 #include "implicit/operators/operation_rows.hpp"
 #include "kernel/base/number_text.hpp"
@@ -16,9 +17,7 @@ std::string what_it_is(const Node& node) {
 }
 
 /// Whether an operator with a level of its own can take the values: powers need signs and sizes to be right.
-bool in_domain(const Node& node) {
-  return (node.distance || node.level != Level::one) && !node.any_value;
-}
+bool in_domain(const Node& node) { return (node.distance || node.level != Level::one) && !node.any_value; }
 
 /// All operands have the level of the operator, or of the first one; those of level one are never negative.
 void check_levels(NodeInputs& in, const Operator& row, const Nodes& of) {
@@ -97,6 +96,14 @@ std::function<std::optional<Box>(double)> region_of(OperatorId id, Level level, 
   };
 }
 
+/// A point of the box as a box: where nothing is.
+Box any_point(const Box& box) {
+  Vec3 at = Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    at[i] = std::isfinite(box.lo[i]) ? box.lo[i] : std::isfinite(box.hi[i]) ? box.hi[i] : 0.0;
+  return {at, at};
+}
+
 }  // namespace
 
 std::optional<Box> hull_of(std::span<const std::shared_ptr<const Node>> of, double value) {
@@ -119,7 +126,7 @@ std::optional<Box> common_of(std::span<const std::shared_ptr<const Node>> of, do
       continue;
     }
     const std::optional<Box> both = common(*all, *one);
-    if (!both) return Box{all->lo, all->lo};
+    if (!both) return any_point(*all);
     all = both;
   }
   return all;
@@ -154,6 +161,9 @@ Node make_operation(NodeInputs& in, OperatorId id) {
     return combine(tape, steps);
   };
   node.region = region_of(id, node.level, combine, of);
+  if (id == OperatorId::min || id == OperatorId::max)
+    node.lattice = std::make_shared<const NodeLattice>(
+        NodeLattice{id == OperatorId::min ? NodeLattice::Kind::smallest : NodeLattice::Kind::largest, of});
   return node;
 }
 

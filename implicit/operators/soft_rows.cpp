@@ -19,6 +19,7 @@ Node complement_of(const std::shared_ptr<const Node>& of) {
   node.distance = of->distance;
   node.any_value = of->any_value;
   node.origin = of->origin;
+  node.lattice = std::make_shared<const NodeLattice>(NodeLattice{NodeLattice::Kind::complement, {of}});
   node.emit = [of, body = std::make_shared<const Complement>()](TapeBuilder& tape, const Frame& frame) {
     return tape.add<Complement>(body, Frame(), {of->emit(tape, frame)});
   };

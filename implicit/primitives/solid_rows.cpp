@@ -4,6 +4,7 @@
 #include "implicit/primitives/primitive_inputs.hpp"
 #include "implicit/primitives/primitive_tables.hpp"
 #include "implicit/primitives/solid_distance.hpp"
+#include "implicit/scene/level_map.hpp"
 #include "kernel/base/number_text.hpp"
 
 namespace blendwright::detail {
@@ -32,14 +33,62 @@ Node distance_node(Body body, const Vec3& half) {
   return node;
 }
 
-Node make_sphere(NodeInputs& in) {
-  const double radius = read_length(in, "radius");
-  return distance_node(SphereDistance{radius}, Vec3::Constant(radius));
+using Parallel = std::shared_ptr<const Node>;
+
+/// f + length of the exact distance f of a convex solid: the exact distance again when the solid grows, as
+/// its nearest points keep their normals, and when it shrinks and could grow back to what it was.
+Parallel shifted(const Node& of, double length) {
+  Node node = of;
+  node.emit = [emit = of.emit, map = std::make_shared<const LevelMap>(LevelMap{1.0, length})](
+                  TapeBuilder& tape, const Frame& frame) {
+    return tape.add<LevelMap>(map, Frame(), {emit(tape, frame)});
+  };
+  node.region = [region = of.region, length](double value) { return region(value - length); };
+  if (of.parallel) node.parallel = [p = of.parallel, length](double more) { return p(length + more); };
+  return std::make_shared<const Node>(std::move(node));
 }
 
+Node sphere_node(double radius) {
+  Node node = distance_node(SphereDistance{radius}, Vec3::Constant(radius));
+  node.parallel = [radius](double length) {
+    return radius + length > 0.0 ? std::make_shared<const Node>(sphere_node(radius + length)) : nullptr;
+  };
+  return node;
+}
+
+Node torus_node(double ring, double tube) {
+  Node node = distance_node(TorusDistance{ring, tube}, {ring + tube, ring + tube, tube});
+  node.parallel = [ring, tube](double length) {
+    const double r = tube + length;
+    return r > 0.0 && r < ring ? std::make_shared<const Node>(torus_node(ring, r)) : nullptr;
+  };
+  return node;
+}
+
+Node box_node(const Vec3& half) {
+  Node node = distance_node(BoxDistance{half}, half);
+  node.parallel = [half](double length) -> Parallel {
+    if (length >= 0.0) return shifted(box_node(half), length);
+    const Vec3 left = half.array() + length;
+    return left.minCoeff() > 0.0 ? std::make_shared<const Node>(box_node(left)) : nullptr;
+  };
+  return node;
+}
+
+/// Shrunk by no more than its least radius of curvature, s_min^2/s_max, it grows back.
+Node ellipsoid_node(const Vec3& s) {
+  Node node = distance_node(EllipsoidDistance(s), s);
+  node.parallel = [s](double length) {
+    const double least = s.minCoeff() * (s.minCoeff() / s.maxCoeff());
+    return length >= -least ? shifted(ellipsoid_node(s), length) : nullptr;
+  };
+  return node;
+}
+
+Node make_sphere(NodeInputs& in) { return sphere_node(read_length(in, "radius")); }
+
 Node make_ellipsoid(NodeInputs& in) {
-  const Vec3 s(read_length(in, "a"), read_length(in, "b"), read_length(in, "c"));
-  return distance_node(EllipsoidDistance(s), s);
+  return ellipsoid_node({read_length(in, "a"), read_length(in, "b"), read_length(in, "c")});
 }
 
 Node make_torus(NodeInputs& in) {
@@ -50,14 +99,14 @@ Node make_torus(NodeInputs& in) {
                    ": the surface would meet itself");
     return {};
   }
-  return distance_node(TorusDistance{ring, tube}, {ring + tube, ring + tube, tube});
+  return torus_node(ring, tube);
 }
 
 Node make_box(NodeInputs& in) {
   const std::vector<double>& half = in.numbers("half");
   Vec3 h;
   for (int i = 0; i < 3; ++i) h[i] = checked_length(in, "half", half[static_cast<std::size_t>(i)], i);
-  return distance_node(BoxDistance{h}, h);
+  return box_node(h);
 }
 
 constexpr std::array sphere_params{length_param("radius", "radius R")};

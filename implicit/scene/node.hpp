@@ -31,6 +31,12 @@ struct NodePerturbation {
   double free_term;
 };
 
+/// The smallest or largest of several nodes, or the complement of one.
+struct NodeLattice {
+  enum class Kind { smallest, largest, complement } kind;
+  std::vector<std::shared_ptr<const Node>> of;
+};
+
 struct Node {
   Level level = Level::one;
   bool distance = false;       ///< level one and never negative: what potentials and distance operations take
@@ -43,6 +49,11 @@ struct Node {
   double weight = 0.0;          ///< of perturbations, also placed ones; 0: it is none
   std::shared_ptr<const NodeQuadric> quadric{};        ///< of quadrics, level function, also placed ones
   std::shared_ptr<const NodePerturbation> perturbs{};  ///< of perturbations that are not placed
+  std::shared_ptr<const NodeLattice> lattice{};        ///< of min, max and complement
+  /// Of exact distances: that of the solid which is larger by a length (smaller for < 0), all lengths in the
+  /// node's own coordinates; null, or no function: it has no closed form.
+  std::function<std::shared_ptr<const Node>(double length)> parallel{};
+  std::shared_ptr<const Node> under{};  ///< of placements: what is placed; `detail` says where
   /// Adds the node's steps, seen from the coordinates that `frame` leads to.
   std::function<StepIndex(TapeBuilder&, const Frame&)> emit;
   /// Encloses every point, in the node's own coordinates, whose value lies on the solid's side of `value` (<=

@@ -28,6 +28,7 @@ SceneBuilder::SceneBuilder(const SceneSpec& spec)
       use_keys_(spec.nodes.size()),
       faulty_(spec.nodes.size(), false),
       distance_depth_(spec.nodes.size(), 0),
+      offset_depth_(spec.nodes.size(), 0),
       made_index_(spec.nodes.size(), 0) {
   check_names();
   check_nodes();
@@ -133,6 +134,7 @@ void SceneBuilder::make(std::size_t node) {
     const std::size_t other = uses_[node][k].node;
     if (faulty_[other]) faulty_[node] = true;
     distance_depth_[node] = std::max(distance_depth_[node], distance_depth_[other]);
+    offset_depth_[node] = std::max(offset_depth_[node], offset_depth_[other]);
     if (faulty_[node]) continue;
     links.push_back({use_keys_[node][k], made_.node(made_index_[other])});
     children.push_back(made_index_[other]);
@@ -143,6 +145,10 @@ void SceneBuilder::make(std::size_t node) {
                    "is the " + count_text(distance_depth_[node]) +
                        "th distance operation inside each other, must be at most the " +
                        count_text(most_distance_operations) + "th");
+  if (kind->family == NodeFamily::offset && ++offset_depth_[node] > most_offsets)
+    return problem(node, "",
+                   "is the " + count_text(offset_depth_[node]) +
+                       "th offset inside each other, must be at most the " + count_text(most_offsets) + "th");
 
   CheckedInputs inputs(spec_.nodes[node], *kind, std::move(links), spec_.strict);
   Node made;

@@ -13,6 +13,8 @@ namespace blendwright::detail {
 /// Distance operations may be put into each other this deep: each of them looks at what it is made of in many
 /// directions before it exists.
 inline constexpr std::size_t most_distance_operations = 64;
+/// So may offsets, each of which looks at what it is made of at every evaluation.
+inline constexpr std::size_t most_offsets = 16;
 
 class SceneBuilder {
  public:
@@ -46,7 +48,7 @@ class SceneBuilder {
   std::vector<std::vector<Use>> uses_;
   std::vector<std::vector<std::string_view>> use_keys_;  ///< the parameter behind each use
   std::vector<bool> faulty_;
-  std::vector<std::size_t> distance_depth_;
+  std::vector<std::size_t> distance_depth_, offset_depth_;
   Found problems_, warnings_;
   MadeNodes made_;
   std::vector<std::size_t> made_index_;
