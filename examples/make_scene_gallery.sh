@@ -46,10 +46,18 @@ s2-7 - p=1.1 p=1.7
 s2-8 - p=1.2 p=1.8
 s2-9b - p=3 p=7
 s2-9c - n=-1.5 n=-2
+s3-bumps - power=2 power=3 bump-on-bump
+s3-offsets - ellipsoid+0.3 ellipsoid-0.3 normal+0.3 value+0.2 ring+0.3 box+0.3 box-0.3 rounded-box
+s3-right-angle - u=1_3 u=1_5 u=0.9
+s3-tee - w=1 w=2 w=4 unequal difference intersection
+s3-blend-on-blend - ribbed
+s3-corner - together one-after-another unequal constant-radius
+s3-material - sharp added removed one-side
+s3-bridge - super-elliptic material
 '
 while read -r scene box solids; do
   for solid in $solids; do
-    name=$scene-$(tr '=,' '_-' <<<"$solid")
+    name=$scene-$(tr '=,+' '_-_' <<<"$solid")
     [ $# -eq 0 ] || grep -qF -f <(printf '%s\n' "$@") <<<"$name" || continue
     part=()
     [ "$box" = - ] || part=(--box="$box")
