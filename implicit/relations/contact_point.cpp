@@ -94,38 +94,53 @@ std::optional<ContactPoint> newton(const Half& first, const Half& second, const 
   Vec3 x = start;
   Jet a = jet_at(first, x), b = jet_at(second, x);
   const double far = 4.0 * reach;
+  bool small = false;  // the last step was
   for (int step = 0; step < steps; ++step) {
     if (!usable(a, b)) return std::nullopt;
     const double s1 = 1.0 / a.gradient.norm(), s2 = 1.0 / b.gradient.norm();
     const Vec3 g1 = s1 * a.gradient, g2 = s2 * b.gradient, d = g1 - g2;
     const Balance balance(g1, g2);
-    Matrix4 m = Matrix4::Zero();  // lengths in units of reach, so that they compare with mu
-    m.topLeftCorner<3, 3>() = reach * (balance.mu * s1 * a.hessian + (1.0 - balance.mu) * s2 * b.hessian);
+    const Eigen::Matrix3d bend = balance.mu * s1 * a.hessian + (1.0 - balance.mu) * s2 * b.hessian;
+    // Lengths in units of the radius of curvature, so that they compare with mu.
+    const double curvature = bend.norm(), unit = curvature * reach > 1e-9 ? 1.0 / curvature : reach;
+    Matrix4 m = Matrix4::Zero();
+    m.topLeftCorner<3, 3>() = unit * bend;
     m.topRightCorner<3, 1>() = d;
     m.bottomLeftCorner<1, 3>() = d.transpose();
     Vector4 r;
-    r << -balance.residual, (s2 * b.value - s1 * a.value) / reach;
-    Vec3 move = reach * solve_symmetric(m, r, cut).head<3>();
+    r << -balance.residual, (s2 * b.value - s1 * a.value) / unit;
+    Vec3 move = unit * solve_symmetric(m, r, cut).head<3>();
     if (!move.allFinite()) return std::nullopt;
     if (const double length = move.norm(); length > reach) move *= reach / length;
-    // Steps square their relative size, so the one after this would be lost in rounding.
-    const bool last = move.norm() <= 1e-8 * reach;
+    const bool last = move.norm() <= 1e-12 * (x.norm() + reach);
     const Vec3 next = x + move;
     if (!((next - start).norm() <= far)) break;
     x = next;
     a = jet_at(first, x);
     b = jet_at(second, x);
-    if (last) break;
+    if (last) {
+      small = true;
+      break;
+    }
   }
   if (!usable(a, b)) return std::nullopt;
   const double s1 = 1.0 / a.gradient.norm(), s2 = 1.0 / b.gradient.norm();
   const Balance balance(s1 * a.gradient, s2 * b.gradient);
   const bool settled =
-      balance.residual.norm() <= 1e-6 && std::abs(s1 * a.value - s2 * b.value) <= 1e-6 * reach;
+      small && balance.residual.norm() <= 1e-6 && std::abs(s1 * a.value - s2 * b.value) <= 1e-6 * reach;
   return contact_of(x, a, b, settled);
 }
 
 }  // namespace
+
+/// Gradients point inward.
+std::optional<Vec3> ContactPoint::normal() const {
+  const double l1 = g1.norm(), l2 = g2.norm();
+  if (!(l1 > 0.0) || !(l2 > 0.0) || !std::isfinite(l1) || !std::isfinite(l2)) return std::nullopt;
+  const Vec3 mean = g2 / l2 - g1 / l1;
+  const double length = mean.norm();
+  return length > 1e-3 ? mean / length : Vec3(-g1 / l1);
+}
 
 std::optional<ContactPoint> contact_point(const Half& first, const Half& second, const Vec3& start,
                                           double reach) {
@@ -134,6 +149,11 @@ std::optional<ContactPoint> contact_point(const Half& first, const Half& second,
   if (found && found->settled) return found;
   const auto coarse = newton(first, second, start, reach, 0.05, 15);
   return coarse && coarse->settled ? coarse : found;
+}
+
+std::optional<ContactPoint> contact_point_near(const Half& first, const Half& second, const Vec3& start,
+                                               double reach, int steps) {
+  return reach > 0.0 ? newton(first, second, start, reach, 1e-8, steps) : std::nullopt;
 }
 
 ContactPoint values_at(const Half& first, const Half& second, const Vec3& point) {

@@ -16,6 +16,8 @@ struct ContactPoint {
   bool settled;   ///< else a point on the way there
   /// First order: how far the surfaces are apart along the gradients, < 0 when the solids overlap.
   [[nodiscard]] double gap() const { return -(v1 / g1.norm() + v2 / g2.norm()); }
+  /// Unit, from the first solid to the second: the mean of both surfaces' normals; nullopt without one.
+  [[nodiscard]] std::optional<Vec3> normal() const;
 };
 
 /// Newton's method for (X, mu) from `start`, with psi and its derivatives divided by the present |g|:
@@ -26,6 +28,10 @@ struct ContactPoint {
 /// a value or gradient is not there.
 [[nodiscard]] std::optional<ContactPoint> contact_point(const Half& first, const Half& second,
                                                         const Vec3& start, double reach);
+
+/// A few steps of it, from a point that is near already.
+[[nodiscard]] std::optional<ContactPoint> contact_point_near(const Half& first, const Half& second,
+                                                             const Vec3& start, double reach, int steps);
 
 /// Values and gradients of psi at a point, as of a contact.
 [[nodiscard]] ContactPoint values_at(const Half& first, const Half& second, const Vec3& point);

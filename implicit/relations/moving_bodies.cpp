@@ -46,49 +46,55 @@ struct Decision {
   std::optional<Vec3> start;
 };
 
-/// From the first body to the second; nullopt without gradients.
-std::optional<Vec3> normal_of(const ContactPoint& at) {
-  const Vec3 mean = at.g2.normalized() - at.g1.normalized();
-  const double length = mean.norm();
-  return length > 1e-3 ? std::optional<Vec3>(mean / length) : std::nullopt;
-}
-
 /// Two bodies, and the box that holds whatever they may have in common.
 class NearPair {
  public:
   NearPair(const ScalarField& first, const ScalarField& second, const SearchOptions& options)
       : halves_{Half{&first}, Half{&second}}, options_(options) {}
 
-  /// What can be said from a point near the nearest or deepest one: a contact that a search without a start
+  /// What can be said from where the pair was in contact or nearest: a contact that a search without a start
   /// cannot miss, or a gap.
   [[nodiscard]] std::optional<Decision> from(const Start& last) const {
-    const Vec3& start = last.point;
-    if (!last.contact && separated_around(start)) return apart(start, std::nullopt, 1);
-    const auto near = settled_from(start);
-    if (!near) return std::nullopt;
-    if (near->depth < 0.0) {
-      if (!separated_around(near->point)) return std::nullopt;
-      return apart(near->point, near, 2);
-    }
-    if (!options_.domain->contains(near->point) || !cube_belongs(near->point)) return std::nullopt;
-    Decision found = at_point(Contact::contact, *near);
-    found.collision.boxes = 1;
-    return found;
+    return last.contact ? still_in_contact(last.point) : still_apart(last.point);
   }
 
   [[nodiscard]] Decision search(const Progress& progress) const {
     Decision found{collide(*halves_[0].field, *halves_[1].field, options_, std::nullopt, progress), {}};
     found.start = found.collision.point;
     if (!found.start && found.collision.boxes > 1)
-      if (const auto near = settled_from(options_.domain->centre())) found.start = near->point;
+      if (const auto place = near(options_.domain->centre(), 3)) found.start = place->point;
     return found;
   }
 
  private:
-  [[nodiscard]] std::optional<ContactPoint> settled_from(const Vec3& start) const {
-    auto near = contact_point(halves_[0], halves_[1], start, options_.domain->size().maxCoeff());
-    if (near && !near->settled) near.reset();
-    return near;
+  /// From step to step the place follows the deepest point, a step of Newton's method each time.
+  [[nodiscard]] std::optional<Decision> still_in_contact(const Vec3& start) const {
+    const auto place = near(start, 1);
+    if (place && certain(place->point)) return at_point(Contact::contact, *place, 1);
+    for (const Vec3& point : {start, options_.domain->centre()})
+      if (certain(point)) return at_point(Contact::contact, values_at(halves_[0], halves_[1], point), 1);
+    return still_apart(place ? place->point : start);
+  }
+
+  [[nodiscard]] std::optional<Decision> still_apart(const Vec3& start) const {
+    if (separated_around(start)) {
+      Decision found;
+      found.collision.contact = Contact::disjoint;
+      found.collision.boxes = 1;
+      found.start = start;
+      return found;
+    }
+    const auto place = near(start, 3);
+    if (place && place->depth < 0.0) {
+      if (separated_around(place->point)) return at_point(Contact::disjoint, *place, 2);
+    } else if (place && certain(place->point)) {
+      return at_point(Contact::contact, *place, 2);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<ContactPoint> near(const Vec3& start, int steps) const {
+    return contact_point_near(halves_[0], halves_[1], start, options_.domain->size().maxCoeff(), steps);
   }
 
   /// Whether a convex combination of both is < 0 on the box around the domain that has this centre. At the
@@ -96,7 +102,7 @@ class NearPair {
   [[nodiscard]] bool separated_around(const Vec3& centre) const {
     const Box& domain = *options_.domain;
     const Vec3 half = (domain.hi - centre).cwiseMax(centre - domain.lo).cwiseMax(0.0);
-    const Box box{centre - half * (1.0 + 1e-15), centre + half * (1.0 + 1e-15)};
+    const Box box = hull({centre - half, centre + half}, domain);
     std::array<LinearBound, 2> bounds;
     for (std::size_t i = 0; i < 2; ++i) {
       const double sign = halves_[i].sign(), shift = -sign * surface_value(halves_[i].field->level());
@@ -107,27 +113,20 @@ class NearPair {
   }
 
   /// Whether a whole cube of the tolerance's size around the point belongs to both.
-  [[nodiscard]] bool cube_belongs(const Vec3& point) const {
+  [[nodiscard]] bool certain(const Vec3& point) const {
+    if (!options_.domain->contains(point)) return false;
     const Vec3 half = Vec3::Constant(options_.tolerance);
     const Box cube{point - half, point + half};
     return std::ranges::all_of(halves_, [&](const Half& h) { return h.holds(h.psi(h.field->range(cube))); });
   }
 
-  [[nodiscard]] static Decision apart(const Vec3& start, const std::optional<ContactPoint>& near,
-                                      std::size_t boxes) {
-    Decision found;
-    if (near) found = at_point(Contact::disjoint, *near);
-    found.collision.contact = Contact::disjoint;
-    found.collision.boxes = boxes;
-    found.start = start;
-    return found;
-  }
-  [[nodiscard]] static Decision at_point(Contact contact, const ContactPoint& near) {
+  [[nodiscard]] static Decision at_point(Contact contact, const ContactPoint& place, std::size_t boxes) {
     Decision found;
     found.collision.contact = contact;
-    found.collision.point = found.start = near.point;
-    found.collision.normal = normal_of(near);
-    found.collision.gap = near.gap();
+    found.collision.point = found.start = place.point;
+    found.collision.normal = place.normal();
+    if (std::isfinite(place.gap())) found.collision.gap = place.gap();
+    found.collision.boxes = boxes;
     return found;
   }
 

@@ -35,7 +35,7 @@ std::vector<ScalarField> bodies(const std::string& kind) {
 void MovingBodiesSteps(benchmark::State& state, const std::string& kind, double half_box) {
   MovingBodies moving(bodies(kind), {});
   bench::Crowd crowd(count, half_box, 5);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 3; ++i) {
     (void)moving.at(crowd.placements());
     crowd.step(0.05);
   }
@@ -61,17 +61,17 @@ void MovingBodiesSteps(benchmark::State& state, const std::string& kind, double 
   state.counters["boxes"] = boxes / steps;
 }
 constexpr double dilute = 60.0, dense = 7.5;
-#define MOVING(kind)                                                 \
+#define MOVING(kind, dense_steps)                                    \
   BENCHMARK_CAPTURE(MovingBodiesSteps, kind##_dilute, #kind, dilute) \
       ->Iterations(100)                                              \
       ->Unit(benchmark::kMillisecond);                               \
   BENCHMARK_CAPTURE(MovingBodiesSteps, kind##_dense, #kind, dense)   \
-      ->Iterations(20)                                               \
+      ->Iterations(dense_steps)                                      \
       ->Unit(benchmark::kMillisecond)
-MOVING(spheres);
-MOVING(ellipsoids);
-MOVING(boxes);
-MOVING(freeforms);
+MOVING(spheres, 50);
+MOVING(ellipsoids, 50);
+MOVING(boxes, 50);
+MOVING(freeforms, 2);
 
 /// Question: what does it cost to place a body? Nanoseconds per body.
 void PlacingABody(benchmark::State& state, const std::string& kind) {
