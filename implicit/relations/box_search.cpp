@@ -16,6 +16,9 @@ using Model = ScalarField::Model;
 using Verdict = SearchCell::Verdict;
 using Models = std::array<std::shared_ptr<const Model>, 2>;
 
+constexpr double round_off = std::numeric_limits<double>::epsilon();
+/// Less of an edge is not worth a cut.
+constexpr double worth = 0.05;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A box still to be decided, with models that hold on it.
@@ -124,7 +127,57 @@ class Search {
     }
     p.height = best.height;
     p.highest = inside_of(p.box, p.box.centre() + 0.5 * p.box.size().cwiseProduct(best.t));
+    if (!all && !depth_axis_) {
+      clip(p);
+      p.highest = inside_of(p.box, p.highest);
+    }
     return all;
+  }
+
+  /// Cuts off the ends of the box where a linear bound leaves nothing of one solid.
+  void clip(Pending& p) {
+    const Box whole = p.box;
+    for (std::size_t i = 0; i < halves_.size(); ++i) {
+      if (parts_[i].alternatives() != 1) continue;
+      for (const LinearBound& b : parts_[i].bounds) {
+        const Box left = left_of(b, whole);
+        for (int axis = 0; axis < 3; ++axis) {
+          if (left.lo[axis] > p.box.lo[axis] + worth * p.box.size()[axis])
+            cut(p.box, axis, left.lo[axis], true, i);
+          if (left.hi[axis] < p.box.hi[axis] - worth * p.box.size()[axis])
+            cut(p.box, axis, left.hi[axis], false, i);
+        }
+      }
+    }
+  }
+
+  /// Encloses the points of the box where the bound can be >= 0.
+  static Box left_of(const LinearBound& b, const Box& box) {
+    Box left = box;
+    const double reach = b.slope.lpNorm<1>(), top = b.value + b.rest.hi + reach;
+    const double size = std::abs(b.value) + std::abs(b.rest.hi) + reach;
+    if (!std::isfinite(size)) return left;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slope = std::abs(b.slope[axis]);
+      // At the distance t from its higher end the bound is at most top - slope t.
+      const double depth = (top + 16.0 * round_off * size) / slope * (1.0 + 4.0 * round_off);
+      if (!(depth < 2.0)) continue;
+      const double length = 0.5 * depth * box.size()[axis] +
+                            4.0 * round_off * (std::abs(box.lo[axis]) + std::abs(box.hi[axis]));
+      if (b.slope[axis] > 0.0)
+        left.lo[axis] = std::max(box.lo[axis], box.hi[axis] - length);
+      else
+        left.hi[axis] = std::min(box.hi[axis], box.lo[axis] + length);
+    }
+    return left;
+  }
+
+  void cut(Box& box, int axis, double at, bool low_end, std::size_t by) {
+    if (!(at > box.lo[axis] && at < box.hi[axis])) return;
+    Box off = box;
+    (low_end ? off.hi : off.lo)[axis] = at;
+    (low_end ? box.lo : box.hi)[axis] = at;
+    record(off, by == 0 ? Verdict::outside_first : Verdict::outside_second);
   }
 
   static Vec3 inside_of(const Box& box, const Vec3& x) { return x.cwiseMax(box.lo).cwiseMin(box.hi); }

@@ -27,6 +27,7 @@ struct Found {
 ///   - when the range of a psi is < 0 on it;
 ///   - when a convex combination of linear bounds of the psi, or of the leaves of their minima and maxima, is
 ///     < 0 on it: each psi >= 0 at a common point. All alternatives of maxima must be refuted.
+/// What is left is cut down to where single linear bounds allow a common point (not with depth_axis).
 /// The point where the linear bounds are highest is tried as a witness, and Newton's method from there now
 /// and then; a witness counts when the ranges of the fields at that very point say so.
 /// start: tried first. depth_axis 0, 1, 2: boxes are quartered across the other two axes only, never along

@@ -42,8 +42,9 @@ Place place_of(const Half& solid, const At& at, const MembershipOptions& options
     case Mode::guaranteed:
       break;
   }
-  const Range all = solid.psi(solid.field->range(around(at.point, options.tolerance)));
-  return by_sign(all.lo, all.hi);
+  const Box box = around(at.point, options.tolerance);
+  const Range zero = solid.psi(solid.field->range(box)), first = solid.psi(solid.field->linear(box).range());
+  return by_sign(std::max(zero.lo, first.lo), std::min(zero.hi, first.hi));
 }
 
 /// What is within `length` of the point: an outside is looked for where the field falls fastest, then by
