@@ -65,7 +65,8 @@ BallMaximum maximum_on_ball(const Vec3& s, const Vec3& g, double radius) {
 }
 
 Eigen::Matrix3d moved_hessian(const Vec3& s, const BallMaximum& top) {
-  if (top.l == 0.0 || top.tie || !(top.gaps.minCoeff() > 1e-14 * top.gaps.maxCoeff()))
+  const Vec3 sizes = top.gaps.cwiseAbs();
+  if (top.l == 0.0 || top.tie || !(sizes.minCoeff() > 1e-14 * sizes.maxCoeff()))
     return Eigen::Matrix3d::Zero();
   const Vec3 u = top.w / top.w.stableNorm(), m = top.gaps.cwiseInverse();
   const Vec3 p = s.cwiseProduct(m).cwiseProduct(u);

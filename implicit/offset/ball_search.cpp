@@ -1,10 +1,12 @@
 #include "implicit/offset/ball_search.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "implicit/offset/ball_maximum.hpp"
@@ -76,35 +78,84 @@ void add_model(Peak& peak, const Vec3& x, double radius) {
   peak.model = maximum_on_ball(peak.bends, g, radius);
 }
 
-/// The best of points on the way to the model's maximum, for when that is no better.
-Vec3 shorter_step(const Signed& f, const Vec3& from, const Vec3& to, double& value) {
-  std::array<Vec3, 8> points;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    points[k] = from + std::ldexp(1.0, -2 * static_cast<int>(k) - 1) * (to - from);
-  const auto values = f.values(points);
-  const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-  value = values[best];
-  return points[best];
+/// Newton's step within the sphere around x: with n = w/|w| the second derivatives of f there are those of f
+/// across n, less g.n/|w|. Null where f does not bend down.
+std::optional<Vec3> step_on_sphere(const Peak& peak, const Vec3& w, double radius) {
+  const Vec3 n = w / radius, a = n.unitOrthogonal(), b = n.cross(a);
+  const double outward = peak.f.gradient.dot(n) / radius;
+  const double haa = a.dot(peak.f.hessian * a) - outward, hbb = b.dot(peak.f.hessian * b) - outward;
+  const double hab = a.dot(peak.f.hessian * b), det = haa * hbb - hab * hab;
+  if (!(haa < 0.0 && det > 1e-14 * haa * haa)) return std::nullopt;
+  const double ga = peak.f.gradient.dot(a), gb = peak.f.gradient.dot(b);
+  return Vec3((-(hbb * ga - hab * gb) / det) * a + (-(haa * gb - hab * ga) / det) * b);
 }
 
-/// Climbs from `start`: maxima of quadratic models, as long as they are better. At the end values no longer
-/// tell, being rounded: steps count that shrink as those of Newton's method do.
+/// Where a search may go from a peak that is none yet.
+class Ways {
+ public:
+  Ways(const Peak& peak, const Vec3& x, double radius)
+      : peak_(peak), x_(x), w_(peak.at - x), radius_(radius) {
+    const bool outside = w_.norm() >= radius * (1.0 - 1e-6) && peak.f.gradient.dot(w_) > 0.0;
+    if (outside) newton_ = step_on_sphere(peak, w_, radius);
+  }
+  /// To the maximum nearby on the sphere, where that is near; else to that of the model, anywhere in the
+  /// ball.
+  [[nodiscard]] Vec3 first() const {
+    if (newton_ && newton_->norm() < 1e-2 * radius_) return on_sphere(*newton_);
+    return x_ + peak_.axes * peak_.model.w;
+  }
+  /// When that is no better: shorter and shorter steps along the sphere or to the gradient.
+  [[nodiscard]] std::array<Vec3, 8> others() const {
+    const Vec3& g = peak_.f.gradient;
+    const double size = g.stableNorm();
+    std::array<Vec3, 8> points;
+    points.fill(peak_.at);
+    if (!(size > 0.0)) return points;
+    points[0] = x_ + (radius_ / size) * g;
+    const Vec3 n = w_ / std::max(w_.norm(), 1e-300);
+    const bool across = w_.norm() >= radius_ * (1.0 - 1e-6) && g.dot(n) > 0.0;
+    const Vec3 along = across ? Vec3(g - n * n.dot(g)) : g;
+    const double length = along.stableNorm();
+    points[1] = newton_ ? on_sphere(*newton_) : points[0];
+    for (std::size_t k = 2; k < points.size() && length > 0.0; ++k)
+      points[k] = on_sphere((std::ldexp(radius_, 3 - 3 * static_cast<int>(k)) / length) * along);
+    return points;
+  }
+
+ private:
+  /// A step, back onto the sphere or into the ball.
+  [[nodiscard]] Vec3 on_sphere(const Vec3& step) const {
+    const Vec3 w = w_ + step;
+    const double size = w.norm();
+    return size > radius_ || newton_ ? Vec3(x_ + (radius_ / size) * w) : Vec3(x_ + w);
+  }
+  const Peak& peak_;
+  Vec3 x_, w_;
+  double radius_;
+  std::optional<Vec3> newton_;
+};
+
+/// Climbs from `start` as long as values rise. At the end, being rounded, they no longer tell: then steps
+/// count that shrink as those of Newton's method do.
 Peak climb(const Signed& f, const Vec3& x, double radius, const Vec3& start) {
-  constexpr int most_steps = 40;
+  constexpr int most_steps = 60;
   Peak peak{start, f.jet(Order::hessian, start)};
   add_model(peak, x, radius);
   double last_step = radius;
   for (int k = 0; k < most_steps; ++k) {
-    Vec3 next = x + peak.axes * peak.model.w;
+    const Ways ways(peak, x, radius);
+    Vec3 next = ways.first();
     double step = (next - peak.at).norm();
     if (!(step > epsilon * radius) || !next.allFinite()) break;
     const bool final_steps = step < 1e-6 * radius;
     if (final_steps && !(step < 0.5 * last_step)) break;
     PointJet there = f.jet(Order::hessian, next);
     if (!final_steps && !(there.value >= peak.f.value)) {
-      double value = 0.0;
-      next = shorter_step(f, peak.at, next, value);
-      if (!(value > peak.f.value)) break;
+      const auto others = ways.others();
+      const auto values = f.values(others);
+      const auto best = std::max_element(values.begin(), values.end()) - values.begin();
+      if (!(values[static_cast<std::size_t>(best)] > peak.f.value)) break;
+      next = others[static_cast<std::size_t>(best)];
       there = f.jet(Order::hessian, next);
       step = (next - peak.at).norm();
     }
@@ -134,18 +185,23 @@ Start best_start(const Signed& f, const Vec3& x, double radius) {
           *most, *most - *least};
 }
 
-/// Derivatives of F at x from the peak: the gradient of f there, and (3) of ball_maximum.hpp.
+/// Derivatives of F at x from the peak: the gradient of f there, and (3) of ball_maximum.hpp. On the sphere
+/// the gradient of F is along w = Y* - x; where that of f is not, Y* lies on an edge of f.
 PointJet moved_jet(const Peak& peak, const Vec3& x, double radius, Order order) {
   PointJet f = peak.f;
   f.hessian.setZero();
+  const Vec3 w = peak.at - x;
+  if (order == Order::value || w.norm() < radius * (1.0 - 1e-9)) return f;  // inside: F is constant around x
+  const Vec3 n = w / w.norm(), along = n * n.dot(f.gradient);
+  if (!((f.gradient - along).norm() <= 1e-5 * along.norm())) {
+    f.gradient = along;
+    return f;
+  }
   if (order != Order::hessian) return f;
   BallMaximum top;
-  const Vec3 w = peak.at - x;
-  if (w.norm() < radius * (1.0 - 1e-9)) return f;  // inside: F is constant around x
   top.w = peak.axes.transpose() * w;
-  top.l = peak.model.l;
-  top.gaps = peak.model.gaps;
-  top.tie = peak.model.tie;
+  top.l = f.gradient.dot(w) / (2.0 * radius * radius);
+  top.gaps = (top.l - peak.bends.array()).matrix();
   f.hessian = peak.axes * moved_hessian(peak.bends, top) * peak.axes.transpose();
   return f;
 }

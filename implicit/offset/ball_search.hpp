@@ -12,6 +12,8 @@
 // Y*.
 //   Ties: where several points are best, F is exact, its gradient that of f at the first found and its second
 // derivatives those that belong to it.
+//   Edges of f through Y* (the largest of a minimum): F is within the tolerance, its gradient has the right
+// direction and about the right length, its second derivatives count as 0.
 #include <memory>
 
 #include "implicit/offset/local_points.hpp"

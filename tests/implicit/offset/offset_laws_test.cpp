@@ -120,6 +120,24 @@ TEST(BallOffset, ByQuadricsAgreesWithTheSearch) {
   }
 }
 
+// An edge of the solid becomes a part of a cylinder: the best point is on the diagonal, where f has an edge.
+TEST(BallOffset, OfEdgesHasTheNormalsOfARoundEdge) {
+  const auto plane = [](const char* name, List a) {
+    return part(name, "quadric", {{"coefficients", std::move(a)}});
+  };
+  const SceneSpec wedge =
+      scene_of({plane("x", {0, 0, 0, 0, 0, 0, -1, 0, 0, 1}), plane("y", {0, 0, 0, 0, 0, 0, 0, -1, 0, 1}),
+                part("both", "min", {{"of", refs({"x", "y"})}})});
+  const ScalarField f = field_of(wedge, "ball_offset", {{"distance", 0.3}});
+  const Vec3 p(1.2, 1.2, 0.4);
+  const FieldValues v = f.evaluate(Order::gradient, std::span<const Vec3>(&p, 1));
+  EXPECT_NEAR(v.value(0), 0.3 / std::sqrt(2.0) - 0.2, 1e-6);
+  // A point within 1e-6 of the best value is within sqrt(2 * 0.3 * 1e-6) of the diagonal.
+  const Vec3 n = v.gradient(0).normalized();
+  EXPECT_NEAR(n.x(), -std::sqrt(0.5), 3e-3);
+  EXPECT_NEAR(n.y(), -std::sqrt(0.5), 3e-3);
+}
+
 // Placements that keep shapes, and those that do not: the offset of the placed solid has the radius D.
 TEST(BallOffset, OfPlacedSolidsIsMeasuredOutside) {
   SceneSpec ball =

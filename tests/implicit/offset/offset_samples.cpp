@@ -61,10 +61,11 @@ SceneSpec zero_ball() { return scene_of({ball("d", 1.2), part("zero", "zero_leve
 
 std::vector<OffsetSample> all_samples() {
   std::vector<OffsetSample> all;
-  const auto add = [&](const char* id, SceneSpec scene, double share = 0.1, bool slow = false) {
+  const auto add = [&](const char* id, SceneSpec scene, double share = 0.1, bool slow = false,
+                       bool edges = false) {
     const std::string kind = scene.nodes.back().kind;
     scene.strict = false;
-    all.push_back({id, kind, std::move(scene), two, share, slow});
+    all.push_back({id, kind, std::move(scene), two, share, slow, edges});
   };
   add("iso-freeform", with(bumpy(4), "iso_offset", {{"value", 0.3}}));
   add("iso-zero", with(zero_ball(), "iso_offset", {{"value", -0.2}}));
@@ -92,11 +93,13 @@ std::vector<OffsetSample> all_samples() {
   add("ball-union", with(two_eggs("max"), "ball_offset", {{"distance", 0.2}}), 0.3);
   add("ball-intersection-inward", with(two_eggs("min"), "ball_offset", {{"distance", -0.2}}), 0.3);
   add("ball-difference-inward", with(two_eggs("without"), "ball_offset", {{"distance", -0.1}}), 0.3);
-  add("ball-freeform", with(bumpy(4), "ball_offset", {{"distance", 0.2}}), 0.4);
-  add("ball-freeform-inward", with(bumpy(4), "ball_offset", {{"distance", -0.15}}), 0.4);
+  add("ball-freeform", with(bumpy(4), "ball_offset", {{"distance", 0.2}, {"tolerance", 1e-12}}), 0.4);
+  add("ball-freeform-inward", with(bumpy(4), "ball_offset", {{"distance", -0.15}, {"tolerance", 1e-12}}),
+      0.4);
   add("ball-zero", with(zero_ball(), "ball_offset", {{"distance", 0.2}}), 0.4);
-  add("ball-soft", with(soft_bar(), "ball_offset", {{"distance", 0.2}}), 0.6);
-  add("ball-intersection", with(two_eggs("min"), "ball_offset", {{"distance", 0.2}}), 0.4);
+  // Values may jump by the tolerance, where differences would see it.
+  add("ball-soft", with(soft_bar(), "ball_offset", {{"distance", 0.2}, {"tolerance", 1e-12}}), 0.6);
+  add("ball-intersection", with(two_eggs("min"), "ball_offset", {{"distance", 0.2}}), 0.4, false, true);
   add("shell-box", on(box(), "shell", {{"inner", 0.1}, {"outer", 0.2}}), 0.3);
   add("shell-soft", with(soft_bar(), "shell", {{"inner", 0.1}, {"outer", 0.0}}), 0.6);
   add("opening-box", on(box(), "opening", {{"radius", 0.25}}), 0.3);

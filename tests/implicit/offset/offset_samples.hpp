@@ -15,6 +15,7 @@ struct OffsetSample {
   Box where;
   double useless_share;  ///< see EvaluatorSuite
   bool slow = false;     ///< two searches in each other
+  bool edges = false;    ///< searched for on edges: derivatives are known to the tolerance only
 };
 [[nodiscard]] const std::vector<OffsetSample>& offset_samples();
 
