@@ -34,6 +34,8 @@ constexpr double filled = 0.90;                               // of the free are
 constexpr double surroundings = 5.0;                          // most that is shown, in sizes of the focus
 constexpr double tube_radius = 0.0026, weld_distance = 1e-7;  // of the object's size
 constexpr int bar_decades = 5, bar_ticks = 9;  // errors cross zero, which would take any number of decades
+constexpr double key_swatch = 18.0, key_space = 9.0, key_line = 30.0;  // pixels
+const TextStyle key_style{.size = 15};
 const Vec3 default_view(1.0, -1.2, 0.8);
 const Colour line_colour{0.10, 0.10, 0.12}, border_colour{0.42, 0.44, 0.48};
 
@@ -175,6 +177,26 @@ std::vector<std::uint32_t> welded(const std::vector<Vec3>& points, double distan
   return first;
 }
 
+/// `in_surface`: lines that lie in a surface are drawn over it.
+void add_edges(vtkRenderer& renderer, const TriMesh& mesh, vtkCellArray& cells, const Colour& colour,
+               double width, bool in_surface) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points_of(mesh.points));
+  data->SetLines(&cells);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  if (in_surface) {
+    mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -4.0);
+    mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  }
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetLighting(false);
+  actor->GetProperty()->SetColor(colour.r, colour.g, colour.b);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width * RenderTarget::oversampling));
+  renderer.AddActor(actor);
+}
+
 /// Edges of one triangle only: thin lines that give translucent surfaces a border.
 void add_border(vtkRenderer& renderer, const TriMesh& mesh, double distance) {
   const std::vector<std::uint32_t> point = welded(mesh.points, distance);
@@ -184,17 +206,13 @@ void add_border(vtkRenderer& renderer, const TriMesh& mesh, double distance) {
   vtkNew<vtkCellArray> cells;
   for (const auto& [edge, count] : uses)
     if (count == 1) cells->InsertNextCell({edge.first, edge.second});
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(mesh.points));
-  data->SetLines(cells);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetLighting(false);
-  actor->GetProperty()->SetColor(border_colour.r, border_colour.g, border_colour.b);
-  actor->GetProperty()->SetLineWidth(1.2f * RenderTarget::oversampling);
-  renderer.AddActor(actor);
+  add_edges(renderer, mesh, *cells, border_colour, 1.2, false);
+}
+
+void add_given_edges(vtkRenderer& renderer, const PictureMesh& m) {
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b] : m.edges) cells->InsertNextCell({a, b});
+  add_edges(renderer, m.mesh, *cells, m.edge_colour, m.edge_width, true);
 }
 
 void add_tube(vtkRenderer& renderer, const PolyLine& line, double radius) {
@@ -296,6 +314,26 @@ void draw_bar(Canvas& canvas, const PixelBox& column, const Axis& axis, const st
   canvas.text({x, 0.5 * (bar.bottom + bar.top)}, title, style);
 }
 
+/// Width of the legend's column.
+double key_width(const std::vector<PictureKey>& keys) {
+  double widest = 0.0;
+  for (const PictureKey& key : keys) widest = std::max(widest, Canvas::width_of(key.label, key_style));
+  return keys.empty() ? 0.0 : widest + key_swatch + 3.0 * key_space;
+}
+
+/// The legend, in the middle of its column, first entry on top.
+void draw_keys(Canvas& canvas, const PixelBox& column, const std::vector<PictureKey>& keys) {
+  const double height = key_line * static_cast<double>(keys.size());
+  double y = 0.5 * (column.bottom + column.top) + 0.5 * height - 0.5 * key_line;
+  for (const PictureKey& key : keys) {
+    const PixelBox swatch{column.left, y - 0.5 * key_swatch, column.left + key_swatch, y + 0.5 * key_swatch};
+    canvas.fill(swatch, key.colour);
+    canvas.frame(swatch, border_colour, 1.0);
+    canvas.text({swatch.right + key_space, y}, key.label, key_style);
+    y -= key_line;
+  }
+}
+
 vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<Axis>& axis,
                                    const PixelBox& area) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
@@ -308,9 +346,10 @@ vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<A
   if (extent.empty() || extent.size() == 0.0) return renderer;
   bool translucent = false;
   for (const PictureMesh& m : picture.meshes) {
+    if (!m.edges.empty()) add_given_edges(*renderer, m);
     if (m.mesh.triangles.empty()) continue;
     add_surface(*renderer, m, picture, axis);
-    if (!m.coloured) add_border(*renderer, m.mesh, weld_distance * extent.size());
+    if (!m.coloured && m.edges.empty()) add_border(*renderer, m.mesh, weld_distance * extent.size());
     translucent = translucent || m.opacity < 1.0;
   }
   for (const PolyLine& line : picture.lines)
@@ -330,13 +369,19 @@ vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<A
 
 void write_picture(const std::filesystem::path& png, const Picture& picture, const Display& display) {
   require_drawable(png, picture.width, picture.height, display);
-  for (const PictureMesh& m : picture.meshes) require_consistent(m.mesh);
+  for (const PictureMesh& m : picture.meshes) {
+    require_consistent(m.mesh);
+    for (const auto& edge : m.edges)
+      if (std::max(edge[0], edge[1]) >= m.mesh.points.size())
+        throw InputError("edges", "names point " + std::to_string(std::max(edge[0], edge[1])) +
+                                      ", must be below " + std::to_string(m.mesh.points.size()));
+  }
   for (const PolyLine& line : picture.lines) require_consistent(line);
   const std::optional<Axis> axis = bar_axis(picture);
 
   const VtkMessages messages;
   RenderTarget target(picture.width, picture.height);
-  const double right = axis ? picture.width * (1.0 - bar_column) : picture.width;
+  const double right = axis ? picture.width * (1.0 - bar_column) : picture.width - key_width(picture.keys);
   const double top = picture.title.empty() ? picture.height : picture.height * (1.0 - title_height);
   Canvas canvas;
   const TextStyle style = Canvas::fitting(picture.title, {.size = 23, .align = Align::centre, .bold = true},
@@ -345,6 +390,8 @@ void write_picture(const std::filesystem::path& png, const Picture& picture, con
   if (axis)
     draw_bar(canvas, {right, 0.0, static_cast<double>(picture.width), top}, *axis,
              picture.bar_title.empty() ? picture.column : picture.bar_title);
+  else
+    draw_keys(canvas, {right, 0.0, static_cast<double>(picture.width), top}, picture.keys);
   canvas.finish(target, 0);
   const vtkSmartPointer<vtkRenderer> renderer = scene(picture, axis, {0.0, 0.0, right, top});
   target.add(*renderer, 1);

@@ -2,6 +2,7 @@
 // Pictures by VTK: a shaded view with a colour bar, and line plots. They need an X display: one that is there
 // is used, else Xvfb is started for the run.
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -37,6 +38,16 @@ struct PictureMesh {
   Colour colour;
   double opacity = 1.0;
   bool coloured = false;  ///< by Picture::column
+  /// Drawn as lines of `edge_colour`, `edge_width` pixels wide; none: the border of a plain mesh, thin.
+  std::vector<std::array<std::uint32_t, 2>> edges{};
+  Colour edge_colour{0.10, 0.10, 0.12};
+  double edge_width = 1.0;
+};
+
+/// An entry of a legend.
+struct PictureKey {
+  std::string label;
+  Colour colour;
 };
 
 struct Picture {
@@ -46,6 +57,7 @@ struct Picture {
   std::string column;              ///< of the coloured meshes, one component; empty: plain shading
   std::string bar_title;           ///< with the unit
   bool logarithmic = false;        ///< at most five decades; what lies below, and zero, has the lowest colour
+  std::vector<PictureKey> keys{};  ///< a legend right of the object, instead of a colour bar
   std::optional<Vec3> view;        ///< direction from the object to the eye; default (1, -1.2, 0.8)
   int width = 1000, height = 760;  ///< 64 to 4096 pixels
 };

@@ -3,7 +3,6 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
@@ -22,28 +21,14 @@
 #include "kernel/base/text_file.hpp"
 #include "kernel/exchange/mesh_files.hpp"
 #include "kernel/exchange/mesh_formats.hpp"
+#include "kernel/exchange/vtk_arrays.hpp"
 #include "kernel/exchange/vtk_messages.hpp"
 
 namespace blendwright {
 namespace {
 
-constexpr const char* name_key = "name";      // of the mesh (field data) or of each line (cell data)
-constexpr const char* note_key = "note";      // of the file (field data): how it was made
 constexpr const char* closed_key = "closed";  // of each line
 constexpr const char* normals_key = "Normals";
-constexpr const char* labels_suffix = " labels";  // of a column (field data)
-
-vtkSmartPointer<vtkDoubleArray> array_of(const std::string& name, int components, std::size_t rows) {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(rows));
-  return array;
-}
-
-void append_points(vtkPoints& points, const std::vector<Vec3>& from) {
-  for (const Vec3& p : from) points.InsertNextPoint(p.data());
-}
 
 void write(const std::filesystem::path& file, vtkPolyData& data, const VtkMessages& messages) {
   vtkNew<vtkXMLPolyDataWriter> writer;
@@ -75,18 +60,10 @@ std::vector<Column> columns_of(vtkPolyData& data, const std::vector<vtkIdType>& 
   for (int a = 0; a < arrays.GetNumberOfArrays(); ++a) {
     vtkDataArray* array = arrays.GetArray(a);
     if (!array || !array->GetName() || array == arrays.GetNormals()) continue;
-    Column& column = columns.emplace_back();
-    column.name = array->GetName();
-    column.components = array->GetNumberOfComponents();
-    if (array->HasInformation() && array->GetInformation()->Has(vtkDataArray::UNITS_LABEL()))
-      column.unit = array->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+    Column& column = columns.emplace_back(described_column(data, *array));
     column.values.reserve(ids.size() * static_cast<std::size_t>(column.components));
     for (const vtkIdType i : ids)
       for (int k = 0; k < column.components; ++k) column.values.push_back(array->GetComponent(i, k));
-    auto* labels = vtkStringArray::SafeDownCast(
-        data.GetFieldData()->GetAbstractArray((column.name + labels_suffix).c_str()));
-    for (vtkIdType i = 0; labels && i < labels->GetNumberOfValues(); ++i)
-      column.labels.push_back(labels->GetValue(i));
   }
   return columns;
 }
@@ -130,24 +107,6 @@ std::vector<vtkIdType> all_points(vtkPolyData& data) {
   return ids;
 }
 
-/// Field data "note": how the geometry was made.
-void add_note(vtkPolyData& data, const std::string& note) {
-  if (note.empty()) return;
-  vtkNew<vtkStringArray> text;
-  text->SetName(note_key);
-  text->InsertNextValue(note);
-  data.GetFieldData()->AddArray(text);
-}
-
-/// Field data "<column> labels": what the indices of a column stand for.
-void add_labels(vtkPolyData& data, const Column& column) {
-  if (column.labels.empty()) return;
-  vtkNew<vtkStringArray> labels;
-  labels->SetName((column.name + labels_suffix).c_str());
-  for (const std::string& label : column.labels) labels->InsertNextValue(label);
-  data.GetFieldData()->AddArray(labels);
-}
-
 }  // namespace
 
 void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
@@ -175,17 +134,11 @@ void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
     data->GetPointData()->SetNormals(normals);
   }
   for (const Column& column : mesh.columns) {
-    const auto array = array_of(column.name, column.components, mesh.points.size());
-    std::copy(column.values.begin(), column.values.end(), array->GetPointer(0));
-    if (!column.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), column.unit);
-    data->GetPointData()->AddArray(array);
+    data->GetPointData()->AddArray(array_of(column));
     add_labels(*data, column);
   }
-  vtkNew<vtkStringArray> name;
-  name->SetName(name_key);
-  name->InsertNextValue(mesh.name);
-  data->GetFieldData()->AddArray(name);
-  add_note(*data, mesh.note);
+  add_text(*data, name_key, mesh.name);
+  add_text(*data, note_key, mesh.note);
   write(file, *data, messages);
 }
 
@@ -215,7 +168,7 @@ void write_vtp(const std::filesystem::path& file, std::span<const PolyLine> line
     data->GetPointData()->AddArray(array);
   data->GetCellData()->AddArray(names);
   data->GetCellData()->AddArray(closed);
-  if (!lines.empty()) add_note(*data, lines.front().note);
+  if (!lines.empty()) add_text(*data, note_key, lines.front().note);
   write(file, *data, messages);
 }
 
@@ -224,9 +177,7 @@ TriMesh read_vtp(const std::filesystem::path& file) {
   const vtkSmartPointer<vtkPolyData> data = read(file, messages);
   if (data->GetNumberOfStrips() > 0) fail_reading(file, "it has triangle strips, must have triangles");
   TriMesh mesh;
-  if (const auto* name = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name_key));
-      name && name->GetNumberOfValues() > 0)
-    mesh.name = const_cast<vtkStringArray*>(name)->GetValue(0);
+  mesh.name = text_in(*data, name_key);
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) mesh.points.push_back(point_of(*data, i));
   if (vtkDataArray* normals = data->GetPointData()->GetNormals()) {
     mesh.normals.resize(mesh.points.size());

@@ -181,6 +181,35 @@ TEST_F(Drawing, ColoursFollowTheScaleOfTheBar) {
   EXPECT_LT(std::abs(green_at(130, false) - green_at(65, false)), 40);
 }
 
+TEST_F(Drawing, ShowsALegendAndTheEdgesThatAreGiven) {
+  Picture picture = saddle_picture();
+  picture.column.clear();
+  picture.title.clear();
+  picture.lines.clear();
+  picture.view = Vec3::UnitZ();
+  picture.meshes[0].coloured = false;
+  picture.keys = {{"inside", {0.0, 1.0, 0.0}}, {"left", {0.0, 0.0, 1.0}}};
+  const auto count = [&](const std::array<unsigned char, 3>& colour) {
+    write_picture(folder_ / "a.png", picture, display());
+    const test::Pixels image = read_png(folder_ / "a.png");
+    int pixels = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) pixels += image.at(x, y) == colour ? 1 : 0;
+    return pixels;
+  };
+  // Swatches are 18 pixels wide with a frame of one.
+  EXPECT_GT(count({0, 255, 0}), 200);
+  EXPECT_GT(count({0, 0, 255}), 200);
+  const std::array<unsigned char, 3> red{255, 0, 0};
+  EXPECT_EQ(count(red), 0);
+  picture.meshes[0].edge_colour = {1.0, 0.0, 0.0};
+  picture.meshes[0].edge_width = 3.0;
+  picture.meshes[0].edges = {{0, 440}};  // from corner to corner of 21 x 21 points
+  EXPECT_GT(count(red), 100);
+  picture.meshes[0].edges = {{0, 441}};
+  EXPECT_THROW(write_picture(folder_ / "b.png", picture, display()), InputError);
+}
+
 TEST_F(Drawing, RefusesAColumnThatIsMissingAndAViewWithoutDirection) {
   Picture picture = saddle_picture();
   picture.column = "angle";
