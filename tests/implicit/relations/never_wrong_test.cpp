@@ -62,6 +62,25 @@ TEST_P(NeverWrong, OnPlantedGaps) {
   EXPECT_LE(tally.of(Judged::undecided), tally.all() / 100);
 }
 
+// Bars know less, but nothing wrong.
+TEST_P(NeverWrong, WithBars) {
+  Tally tally;
+  for (int seed = 1; seed <= bounded(20); ++seed) {
+    Rng rng(static_cast<std::uint64_t>(seed) * 16 + static_cast<std::uint64_t>(GetParam()));
+    const double gap = random_gap(rng);
+    const PlantedPair pair = planted_pair(rng, GetParam(), gap);
+    SearchOptions options = options_for(pair, GetParam());
+    options.tolerance = 1e-2;
+    options.max_boxes = 5'000;
+    const Collision c = collide_projected(pair.first, pair.second, integer(rng, 0, 2), options);
+    const Judged judged = judge(pair, gap, c);
+    tally.add(judged, c.boxes);
+    ASSERT_NE(judged, Judged::wrong) << "seed " << seed << ", gap " << gap << ": " << name(c.contact);
+  }
+  std::cout << name(GetParam()) << ", bars: undecided " << tally.of(Judged::undecided) << " of "
+            << tally.all() << "\n";
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, NeverWrong, ::testing::ValuesIn(families),
                          [](const ::testing::TestParamInfo<Family>& at) {
                            std::string id = name(at.param);
