@@ -34,10 +34,15 @@ namespace blendwright {
 namespace detail {
 HWY_EXPORT(lp_metric_simd);
 
-/// Convex for n >= 1, concave on each octant for n <= 1.
+/// Convex for n >= 1, concave on each octant for n <= 1; elsewhere a norm of a norm.
 static LinearBound lp_metric_linear(const void* body, const LinearInput& in) {
   const auto& b = *static_cast<const LpMetric*>(body);
-  return norm_bound(op_for<LpMetric>(), body, in, b.n.exponent >= 1.0, b.inverse_axes);
+  const double n = b.n.exponent;
+  const Vec3& f = b.inverse_axes;
+  if (n >= 1.0 || in_one_octant(in)) return norm_bound(op_for<LpMetric>(), body, in, n >= 1.0, f);
+  const BoundedNumber q =
+      norm_of_two(n, coordinate_magnitude(in, 0, f[0]), coordinate_magnitude(in, 1, f[1]));
+  return norm_of_two(n, q, coordinate_magnitude(in, 2, f[2])).bound;
 }
 
 static Op lp_metric_op() {

@@ -61,8 +61,9 @@ static Range superquadric_range(const void* body, const Box& local, std::span<co
 static LinearBound superquadric_linear(const void* body, const LinearInput& in) {
   const auto& b = *static_cast<const Superquadric*>(body);
   const double n1 = b.n1.exponent, n2 = b.n2.exponent;
-  if ((n1 >= 1.0) == (n2 >= 1.0) || n1 == 1.0 || n2 == 1.0)
-    return norm_bound(op_for<Superquadric>(), body, in, n1 >= 1.0 && n2 >= 1.0, b.inverse_axes);
+  const bool convex = n1 >= 1.0 && n2 >= 1.0;
+  if (convex || (n1 <= 1.0 && n2 <= 1.0 && in_one_octant(in)))
+    return norm_bound(op_for<Superquadric>(), body, in, convex, b.inverse_axes);
   const BoundedNumber q = norm_of_two(n1, coordinate_magnitude(in, 0, b.inverse_axes[0]),
                                       coordinate_magnitude(in, 1, b.inverse_axes[1]));
   return norm_of_two(n2, q, coordinate_magnitude(in, 2, b.inverse_axes[2])).bound;
@@ -82,8 +83,13 @@ static Range asymmetric_range(const void* body, const Box& local, std::span<cons
 
 static LinearBound asymmetric_linear(const void* body, const LinearInput& in) {
   const auto& b = *static_cast<const AsymmetricSuperellipsoid*>(body);
-  return norm_bound(op_for<AsymmetricSuperellipsoid>(), body, in, b.n.exponent >= 1.0,
-                    b.inverse_plus.cwiseMax(b.inverse_minus));
+  const double n = b.n.exponent;
+  const Vec3 &plus = b.inverse_plus, &minus = b.inverse_minus;
+  if (n >= 1.0 || in_one_octant(in))
+    return norm_bound(op_for<AsymmetricSuperellipsoid>(), body, in, n >= 1.0, plus.cwiseMax(minus));
+  const BoundedNumber q = norm_of_two(n, coordinate_magnitude(in, 0, plus[0], minus[0]),
+                                      coordinate_magnitude(in, 1, plus[1], minus[1]));
+  return norm_of_two(n, q, coordinate_magnitude(in, 2, plus[2], minus[2])).bound;
 }
 
 }  // namespace detail

@@ -15,6 +15,12 @@ LinearBound rounded(const LinearBound& a, double size) {
   return std::isfinite(slack) ? a.widened(slack) : a;
 }
 
+/// An end that infinities of both signs left open.
+Range known(Range r) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {std::isnan(r.lo) ? -infinity : r.lo, std::isnan(r.hi) ? infinity : r.hi};
+}
+
 }  // namespace
 
 Range LinearBound::range() const {
@@ -22,7 +28,9 @@ Range LinearBound::range() const {
   const double size = std::abs(value) + reach;
   const double slack = 4.0 * round_off * size;
   const double lo = value - reach + rest.lo, hi = value + reach + rest.hi;
-  return {lo - slack - round_off * std::abs(rest.lo), hi + slack + round_off * std::abs(rest.hi)};
+  // A field may be infinite all over the box.
+  return known({std::isinf(lo) ? lo : lo - slack - round_off * std::abs(rest.lo),
+                std::isinf(hi) ? hi : hi + slack + round_off * std::abs(rest.hi)});
 }
 
 LinearBound constant_bound(Range range) {
@@ -34,7 +42,8 @@ LinearBound constant_bound(Range range) {
 }
 
 LinearBound operator+(const LinearBound& a, const LinearBound& b) {
-  const LinearBound sum{a.value + b.value, a.slope + b.slope, {a.rest.lo + b.rest.lo, a.rest.hi + b.rest.hi}};
+  const LinearBound sum{a.value + b.value, a.slope + b.slope,
+                        known({a.rest.lo + b.rest.lo, a.rest.hi + b.rest.hi})};
   return rounded(sum, size_of(a) + size_of(b));
 }
 
