@@ -215,6 +215,7 @@ Decision MovingBodies::State::decide(const Placed& now, std::span<const RigidMot
     if (!there.domain) return apart;
   }
   const NearPair pair(now.fields[first], now.fields[second], there);
+  // Cells are kept by a search only.
   if (const std::optional<Start> start = start_of(placements, first, second); start && !there.keep_cells)
     if (std::optional<Decision> found = pair.from(*start)) return *std::move(found);
   return pair.search(progress);

@@ -24,10 +24,12 @@ class MovingBodies {
 
   [[nodiscard]] std::size_t size() const;
   /// All pairs that are in contact or undecided at these placements, one per body, ordered by (first,
-  /// second); with `all` also the disjoint ones whose boxes meet. What was found last time is where the
-  /// search starts now; the answers do not depend on it, on the order of calls or on the number of threads;
-  /// box counts and witnesses may depend on the calls before. Throws InputError ("placements", or
-  /// "placements/i" for one that is no rigid motion), Cancelled; nothing is remembered then.
+  /// second); with `all` also the disjoint ones whose boxes meet, with the nearest place where one is at
+  /// hand. Where a pair was in contact or nearest last time is where its decision starts now. Short of the
+  /// work limit the answers do not depend on it, on the order of calls or on the number of threads: a contact
+  /// is taken from there only when a whole cube of the tolerance's size is common, which no search can miss.
+  /// Box counts and places may depend on the calls before. Throws InputError ("placements", or "placements/i"
+  /// for one that is no rigid motion), Cancelled; nothing is remembered then.
   [[nodiscard]] std::vector<BodyPair> at(std::span<const RigidMotion> placements, bool all = false,
                                          const Progress& progress = {});
 

@@ -60,18 +60,18 @@ void MovingBodiesSteps(benchmark::State& state, const std::string& kind, double 
   state.counters["candidates"] = candidates / steps;
   state.counters["boxes"] = boxes / steps;
 }
-constexpr double dilute = 60.0, dense = 7.5;
-#define MOVING(kind, dense_steps)                                    \
+constexpr double dilute = 60.0;  // half of the box
+#define MOVING(kind, dense, dense_steps)                             \
   BENCHMARK_CAPTURE(MovingBodiesSteps, kind##_dilute, #kind, dilute) \
       ->Iterations(100)                                              \
       ->Unit(benchmark::kMillisecond);                               \
   BENCHMARK_CAPTURE(MovingBodiesSteps, kind##_dense, #kind, dense)   \
       ->Iterations(dense_steps)                                      \
       ->Unit(benchmark::kMillisecond)
-MOVING(spheres, 50);
-MOVING(ellipsoids, 50);
-MOVING(boxes, 50);
-MOVING(freeforms, 2);
+MOVING(spheres, 7.5, 50);
+MOVING(ellipsoids, 7.2, 50);
+MOVING(boxes, 9.6, 50);
+MOVING(freeforms, 7.0, 2);
 
 /// Question: what does it cost to place a body? Nanoseconds per body.
 void PlacingABody(benchmark::State& state, const std::string& kind) {
