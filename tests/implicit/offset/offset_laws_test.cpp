@@ -216,8 +216,25 @@ TEST(Opening, IsIdempotent) {
   }
 }
 
-// A search within a search: few points.
+// By the closed form, and again by a search: the second closing has none.
 TEST(Closing, IsIdempotent) {
+  const auto plane = [](const char* name, List a) {
+    return part(name, "quadric", {{"coefficients", std::move(a)}});
+  };
+  const SceneSpec corner =
+      scene_of({plane("x", {0, 0, 0, 0, 0, 0, -1, 0, 0, 0}), plane("y", {0, 0, 0, 0, 0, 0, 0, -1, 0, 0}),
+                part("both", "max", {{"of", refs({"x", "y"})}})});
+  const ScalarField plain = build_scene(corner).field;
+  const ScalarField once = field_of(corner, "closing", {{"radius", 0.5}});
+  const ScalarField again = field_of(twice(corner, "closing", 0.5), "closing", {{"radius", 0.5}});
+  const Box where{Vec3::Constant(-0.2), Vec3::Constant(0.8)};
+  // The search is within 1e-6 of the range of f over the ball, which is at most 1.
+  EXPECT_EQ(different_signs(once, again, where, bounded(200), 1e-6), 0);
+  EXPECT_GT(different_signs(once, plain, where, bounded(200), 1e-6), 0);
+}
+
+// Two searches in each other: few points.
+TEST(Closing, FillsAConcaveEdgeUpToTheBall) {
   const SceneSpec boxes = scene_of({part("a", "box", {{"half", List{0.5, 0.5, 0.5}}}),
                                     part("b", "place", {{"of", ref("a")}, {"move", List{0.7, 0.7, 0.0}}}),
                                     part("c", "max", {{"of", refs({"a", "b"})}})});
