@@ -1,4 +1,5 @@
 // Linear bounds of a tape over a box.
+#include <algorithm>
 #include <limits>
 
 #include "implicit/eval/tape_walk.hpp"
@@ -18,6 +19,12 @@ LinearInput input_of(const Box& box, const Frame* frame, const Box& local) {
 
 bool narrower(Range a, Range b) { return a.hi - a.lo < b.hi - b.lo; }
 
+/// What two ranges of the same values have in common.
+Range both(Range a, Range b) {
+  const Range r{std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+  return r.lo <= r.hi ? r : a;
+}
+
 }  // namespace
 
 /// Like bound(), and the linear bounds of all steps.
@@ -28,6 +35,7 @@ void Tape::bound_linearly(const Box& box, Walk& walk) const {
     const Step& step = steps_[i];
     if (walk.stand_in[i] != i) {
       walk.linear[i] = walk.linear[walk.stand_in[i]];
+      walk.ranges[i] = walk.ranges[walk.stand_in[i]];
       continue;
     }
     walk.linear[i] = constant_bound(walk.ranges[i]);
@@ -43,7 +51,9 @@ void Tape::bound_linearly(const Box& box, Walk& walk) const {
     in.args = walk.linear_args;
     in.ranges = walk.args;
     const LinearBound found = step.op->linear(step.body ? step.body : &step.constant, in);
-    if (narrower(found.rest, walk.linear[i].rest)) walk.linear[i] = found;
+    if (!narrower(found.rest, walk.linear[i].rest)) continue;
+    walk.linear[i] = found;
+    walk.ranges[i] = both(walk.ranges[i], found.range());  // for the bounds of its users
   }
 }
 
