@@ -12,28 +12,50 @@ namespace {
 
 constexpr double most_memory = 1e18;  // bytes; far beyond any machine, and well within std::size_t
 
-}  // namespace
-
-Box box_argument(const std::string& text) {
+/// Finite numbers separated by commas; nothing when the text is anything else.
+std::vector<double> numbers_in(const std::string& text) {
   std::vector<double> x;
   const char *at = text.data(), *end = at + text.size();
   for (;;) {
     double value = 0.0;
     const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || !std::isfinite(value)) break;
+    if (error != std::errc() || !std::isfinite(value)) return {};
     x.push_back(value);
     at = next;
-    if (at == end || *at != ',') break;
+    if (at == end) return x;
+    if (*at != ',') return {};
     ++at;
   }
-  if (x.size() != 6 || at != end)
-    throw InputError("", "is " + text + ", must be six numbers x0,y0,z0,x1,y1,z1");
+}
+
+}  // namespace
+
+Box box_argument(const std::string& text) {
+  const std::vector<double> x = numbers_in(text);
+  if (x.size() != 6) throw InputError("", "is " + text + ", must be six numbers x0,y0,z0,x1,y1,z1");
   const Box box{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   for (int k = 0; k < 3; ++k)
     if (!(box.lo[k] < box.hi[k]))
       throw InputError("", "goes from " + number_text(box.lo[k]) + " to " + number_text(box.hi[k]) + " in " +
                                std::string(1, "xyz"[k]) + ", must have a lower corner below the upper one");
   return box;
+}
+
+std::array<double, 2> shell_argument(const std::string& text) {
+  const std::vector<double> x = numbers_in(text);
+  if (x.size() != 2)
+    throw InputError("", "is " + text + ", must be two lengths inner,outer: a wall inward and outward");
+  for (const double length : x)
+    if (length < 0.0) throw InputError("", "is " + text + ", must be two lengths >= 0");
+  return {x[0], x[1]};
+}
+
+Vec3 direction_argument(const std::string& text) {
+  const std::vector<double> x = numbers_in(text);
+  if (x.size() != 3) throw InputError("", "is " + text + ", must be three numbers x,y,z");
+  const double length = Vec3(x[0], x[1], x[2]).stableNorm();
+  if (!(length > 0.0)) throw InputError("", "is " + text + ", must have a direction");
+  return Vec3(x[0], x[1], x[2]) / length;
 }
 
 std::size_t memory_argument(const std::string& text) {
@@ -49,6 +71,37 @@ std::size_t memory_argument(const std::string& text) {
   if (error != std::errc() || !(bytes >= 1.0 && bytes <= most_memory))
     throw InputError("", "is " + text + ", must be a size such as 500M or 4G");
   return static_cast<std::size_t>(bytes);
+}
+
+std::optional<FairnessOptions> fairness_of(bool wanted, const std::string& pull) {
+  if (!wanted) return std::nullopt;
+  FairnessOptions options;
+  if (!pull.empty()) options.pull = direction_argument(pull);
+  return options;
+}
+
+std::string command_line(int argc, const char* const* argv) {
+  std::string line = "blendwright";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789-_=+.,:/@%") == std::string::npos;
+    line += ' ';
+    if (plain) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) {
+      if (c == '\'')
+        line += "'\\''";
+      else
+        line += c;
+    }
+    line += '\'';
+  }
+  return line;
 }
 
 }  // namespace blendwright

@@ -22,6 +22,10 @@ struct BlendCommand {
   std::vector<std::string> formats;  ///< words of the format family; empty: as the job says
   bool force = false, json = false, times = false, quiet = false;
   bool certify = false;  ///< prove bounds between the samples
+  bool fairness = false;
+  std::string pull;    ///< direction for the draft; empty: none
+  std::string report;  ///< page for people; empty: none
+  std::string called;  ///< how the program was called
   std::optional<int> threads;
 };
 /// Builds, writes and verifies.
@@ -32,6 +36,9 @@ struct VerifyCommand {
   std::optional<double> position, angle_deg, curvature;  ///< instead of the job's tolerances
   bool json = false, times = false, quiet = false;
   bool certify = false;  ///< prove bounds between the samples
+  bool fairness = false;
+  std::string pull, report, called;  ///< as of BlendCommand
+  bool force = false;                ///< replace the report
   std::optional<int> threads;
 };
 /// Builds and verifies in memory.
@@ -45,6 +52,7 @@ struct MeshCommand {
   int cells = 128;
   std::string box, at_box = "cap", max_memory = "4G", colour;
   bool force = false, json = false, times = false, quiet = false;
+  std::string report, called;  ///< as of BlendCommand
   std::optional<int> threads;
 };
 /// Makes a mesh of a scene's solid, writes and measures it.
@@ -57,6 +65,41 @@ struct EvalCommand {
 };
 /// Evaluates a scene's field at given points.
 [[nodiscard]] int eval(const EvalCommand& command, const Console& console);
+
+struct OffsetCommand {
+  MeshCommand mesh;  ///< the scene, how the offset is meshed and what is written
+  std::optional<double> distance, round, fillet, tolerance;
+  std::string kind = "ball", shell;
+};
+/// Makes a mesh of an offset of a scene's solid, writes it and measures how exact the offset is.
+[[nodiscard]] int offset(const OffsetCommand& command, const Console& console);
+
+/// Limits of a search that is to decide something.
+struct SearchCommand {
+  double tolerance = 1e-9;
+  std::size_t max_boxes = 2'000'000;
+  std::string domain;  ///< empty: where the bounds of the solids allow points
+};
+
+struct RelateCommand {
+  std::vector<std::string> scenes;  ///< "part.json" or "part.json#node"
+  std::string points, output, mode = "length";
+  SearchCommand search;
+  bool confirm = false, convert_units = false, force = false, json = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Says how two solids lie to each other, or where points lie.
+[[nodiscard]] int relate(const RelateCommand& command, const Console& console);
+
+struct CollideCommand {
+  std::vector<std::string> scenes, cells;
+  std::string motion, output, projected, expect;
+  SearchCommand search;
+  bool all = false, convert_units = false, force = false, json = false, times = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Says whether bodies touch, as they stand or along a motion.
+[[nodiscard]] int collide(const CollideCommand& command, const Console& console);
 
 struct InspectCommand {
   std::string part;

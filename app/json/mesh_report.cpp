@@ -1,6 +1,4 @@
-// What `mesh` made, as JSON.
-#include "app/json/json_value.hpp"
-#include "app/pipeline/mesh_job.hpp"
+#include "app/json/mesh_report.hpp"
 
 namespace blendwright {
 namespace {
@@ -34,7 +32,7 @@ Value figures_json(const MeshFacts& f) {
 
 }  // namespace
 
-std::string mesh_report_json(const SceneFile& scene, const MeshResult& result, bool times) {
+JsonValue mesh_report(const SceneFile& scene, const MeshResult& result, bool times) {
   Value report = Value::object({{"program", "blendwright " BLENDWRIGHT_VERSION},
                                 {"scene", scene.name},
                                 {"source_hash", scene.source_hash},
@@ -58,7 +56,11 @@ std::string mesh_report_json(const SceneFile& scene, const MeshResult& result, b
     for (const StageTime& t : result.times) seconds.add(t.stage, t.seconds);
     report.add("times", std::move(seconds));
   }
-  return json_text(report);
+  return report;
+}
+
+std::string mesh_report_json(const SceneFile& scene, const MeshResult& result, bool times) {
+  return json_text(mesh_report(scene, result, times));
 }
 
 }  // namespace blendwright

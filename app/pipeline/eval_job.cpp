@@ -5,6 +5,7 @@
 #include "app/json/json_value.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/base/parallel_for.hpp"
+#include "kernel/exchange/csv_text.hpp"
 
 namespace blendwright {
 namespace {
@@ -29,13 +30,6 @@ void sample_chunk(const ScalarField& field, std::span<const Vec3> points, std::s
                   level_curvature(gradient, values.hessian(i), field.level()),
                   members.empty() ? std::nullopt : std::optional(members[i])};
   }
-}
-
-std::string csv_text(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string text(1, '"');
-  for (const char c : name) text.append(c == '"' ? 2 : 1, c);
-  return text += '"';
 }
 
 std::string name_of(const FieldSample& s, const std::vector<std::string>& members) {
@@ -68,7 +62,7 @@ std::string csv_lines(std::span<const FieldSample> samples, const std::vector<st
     } else {
       text += ",,";
     }
-    text.append(csv_text(name_of(s, members))).append(1, '\n');
+    text.append(csv_field(name_of(s, members))).append(1, '\n');
   }
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include "app/json/object_reader.hpp"
 #include "app/pipeline/mesh_pictures.hpp"
+#include "app/pipeline/progress_part.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/exchange/mesh_files.hpp"
 
@@ -102,14 +103,6 @@ void write_mesh(const fs::path& file, const TriMesh& mesh) {
   if (extension == ".stl") write_stl(file, one);
   if (extension == ".obj") write_obj(file, one);
   if (extension == ".ply") write_ply(file, mesh);
-}
-
-/// The part `lo` to `hi` of a longer run.
-Progress part_of(const Progress& progress, double lo, double hi) {
-  return {[=, report = progress.report](double fraction, std::string_view stage) {
-            report(lo + (hi - lo) * fraction, stage);
-          },
-          progress.stop};
 }
 
 void write_files(MeshResult& result, const SceneFile& scene, const MeshJob& job, const Progress& progress) {

@@ -1,9 +1,12 @@
 #include "implicit/relations/collision.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "implicit/relations/box_search.hpp"
+#include "implicit/relations/contact_point.hpp"
 
 namespace blendwright {
 namespace {
@@ -11,13 +14,10 @@ namespace {
 using detail::ContactPoint;
 using detail::Half;
 
-/// From the first solid to the second: gradients point inward.
-std::optional<Vec3> normal_of(const ContactPoint& at) {
-  const double l1 = at.g1.norm(), l2 = at.g2.norm();
-  if (!(l1 > 0.0) || !(l2 > 0.0) || !std::isfinite(l1) || !std::isfinite(l2)) return std::nullopt;
-  const Vec3 mean = at.g2 / l2 - at.g1 / l1;
-  const double length = mean.norm();
-  return length > 1e-3 ? mean / length : Vec3(-at.g1 / l1);
+void set_place(Collision& c, const ContactPoint& at) {
+  c.point = at.point;
+  c.normal = at.normal();
+  if (c.normal && std::isfinite(at.gap())) c.gap = at.gap();
 }
 
 Collision collision_of(std::span<const Half, 2> halves, detail::Found found, double reach) {
@@ -41,10 +41,7 @@ Collision collision_of(std::span<const Half, 2> halves, detail::Found found, dou
     const auto near = detail::contact_point(halves[0], halves[1], proof.undecided->centre(), reach);
     if (near && near->settled) at = near;
   }
-  if (!at) return c;
-  c.point = at->point;
-  c.normal = normal_of(*at);
-  if (c.normal && std::isfinite(at->gap())) c.gap = at->gap();
+  if (at) set_place(c, *at);
   return c;
 }
 
@@ -62,6 +59,22 @@ Collision decide(const ScalarField& first, const ScalarField& second, const Sear
                       domain->size().maxCoeff());
 }
 
+/// The middle of what both bounds have in common, or of the gap between them; of the finite ends.
+Vec3 between(const std::optional<Box>& first, const std::optional<Box>& second) {
+  const Box everything{Vec3::Constant(-std::numeric_limits<double>::infinity()),
+                       Vec3::Constant(std::numeric_limits<double>::infinity())};
+  const Box a = first.value_or(everything), b = second.value_or(everything);
+  Vec3 middle = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const double lo = std::max(a.lo[k], b.lo[k]), hi = std::min(a.hi[k], b.hi[k]);
+    if (std::isfinite(lo) && std::isfinite(hi))
+      middle[k] = 0.5 * (lo + hi);
+    else if (std::isfinite(lo) || std::isfinite(hi))
+      middle[k] = std::isfinite(lo) ? lo : hi;
+  }
+  return middle;
+}
+
 }  // namespace
 
 std::string_view name(Contact contact) {
@@ -72,6 +85,19 @@ std::string_view name(Contact contact) {
 Collision collide(const ScalarField& first, const ScalarField& second, const SearchOptions& options,
                   const std::optional<Vec3>& start, const Progress& progress) {
   return decide(first, second, options, progress, start, std::nullopt);
+}
+
+Collision with_nearest_place(Collision collision, const ScalarField& first, const ScalarField& second) {
+  if (collision.contact != Contact::disjoint || collision.point) return collision;
+  const Half a{&first}, b{&second};
+  const Vec3 start = between(first.bounds(), second.bounds());
+  double reach = 0.0;
+  for (const auto& bounds : {first.bounds(), second.bounds()})
+    if (bounds && bounds->finite())
+      reach = std::max({reach, bounds->size().maxCoeff(), (bounds->centre() - start).norm()});
+  const auto at = reach > 0.0 ? detail::contact_point(a, b, start, reach) : std::nullopt;
+  if (at && at->settled && at->v1 < 0.0 && at->v2 < 0.0) set_place(collision, *at);
+  return collision;
 }
 
 Collision collide_projected(const ScalarField& first, const ScalarField& second, int axis,

@@ -36,4 +36,10 @@ struct Collision {
 [[nodiscard]] Collision collide_projected(const ScalarField& first, const ScalarField& second, int axis,
                                           const SearchOptions& options, const Progress& progress = {});
 
+/// The same answer; for disjoint solids without a point also the place where they are nearest to each other,
+/// as Newton's method finds it from between their bounds. Not when it finds none where the fields are smooth
+/// and outside of both.
+[[nodiscard]] Collision with_nearest_place(Collision collision, const ScalarField& first,
+                                           const ScalarField& second);
+
 }  // namespace blendwright

@@ -1,0 +1,23 @@
+#pragma once
+// What a person reads of a mesh of a scene.
+#include <string>
+
+#include "app/cli/console.hpp"
+#include "app/pipeline/mesh_job.hpp"
+
+namespace blendwright {
+
+/// Its figures, one per line.
+[[nodiscard]] std::string mesh_table(const SceneFile& scene, const MeshResult& result);
+/// "the solid "body", "; empty for a node in place, which has no name that people know.
+[[nodiscard]] std::string solid_name(const SceneFile& scene);
+/// "wrote body.vtp (1.2 MB)", or that nothing was.
+[[nodiscard]] std::string written_text(const std::vector<WrittenFile>& files);
+/// Warnings of the scene and of the box, and notes.
+void warn_of_mesh(const Console& console, const SceneFile& scene, const MeshResult& result);
+
+struct MeshCommand;
+/// The flags as a job. Throws InputError.
+[[nodiscard]] MeshJob mesh_job_of(const MeshCommand& command);
+
+}  // namespace blendwright
