@@ -1,9 +1,11 @@
 #include <algorithm>
 
+#include "app/cli/arguments.hpp"
 #include "app/cli/run_table.hpp"
 #include "app/cli/verbs.hpp"
 #include "app/json/choices.hpp"
 #include "app/json/job_reader.hpp"
+#include "app/report/report_file.hpp"
 #include "kernel/base/parallel_for.hpp"
 
 namespace blendwright {
@@ -25,10 +27,15 @@ int blend(const BlendCommand& command, const Console& console) {
     if (command.threads) limit.emplace(*command.threads);
     JobSpec job = read_job_file(command.job);
     if (!command.formats.empty()) job.output.formats = formats_named(command.formats);
-    JobResult result = run_job(job, run.progress(), {.certify = command.certify});
-    const JobOutputs outputs =
+    if (!command.report.empty()) require_report_place(command.report, command.force);
+    JobResult result =
+        run_job(job, run.progress(),
+                {.certify = command.certify, .fairness = fairness_of(command.fairness, command.pull)});
+    JobOutputs outputs =
         write_outputs(result, {.folder = command.folder, .overwrite = command.force, .times = command.times},
                       run.progress());
+    if (!command.report.empty())
+      write_blend_report(command.report, result, &outputs, command.called, outputs.notes);
     run.clear();
     if (!command.quiet) {
       for (const std::string& w : result.warnings) console.warn(w);

@@ -124,6 +124,35 @@ std::string proven_table(const JobResult& result) {
   return table.size() == 1 ? std::string() : aligned(table);
 }
 
+/// Fairness of the last stage, a line per figure; empty when it was not asked for.
+std::string fairness_table(const JobResult& result) {
+  const std::string unit = name(result.job.unit);
+  std::string text;
+  for (const BlendResult& b : result.blends) {
+    if (b.stages.empty() || !b.stages.back().fairness) continue;
+    const FairnessReport& f = *b.stages.back().fairness;
+    const auto placed = [&](const Extreme& e, const std::string& of) {
+      return number_text(e.value, 4) + " " + of + " at u = " + fixed2(e.at.u) + ", v = " + fixed2(e.at.v);
+    };
+    TextRows rows{
+        {"fairness", b.entry.name},
+        {"bending energy", number_text(f.bending, 5)},
+        {"thin plate", number_text(f.thin_plate, 5) + " " + unit + "^2"},
+        {"variation", number_text(f.variation, 5) + " 1/" + unit + "^2"},
+        {"curvature", placed(f.largest, "1/" + unit)},
+        {"", placed(f.smallest, "1/" + unit)},
+        {"turns", std::to_string(f.turns.most) + " at most on a line, at v = " + fixed2(f.turns.v)}};
+    if (f.draft)
+      for (const Extreme& e : *f.draft) {
+        Extreme angle = e;
+        angle.value = Radians(e.value).degrees();
+        rows.push_back({&e == &f.draft->front() ? "draft" : "", placed(angle, "deg")});
+      }
+    text += aligned(rows);
+  }
+  return text;
+}
+
 std::string failed_checks(const JobResult& result) {
   std::string text;
   for (const BlendResult& b : result.blends) {
@@ -189,6 +218,7 @@ std::string run_table(const JobResult& result, const JobOutputs* outputs, const 
                      counted(rows.size(), "seam") + ", " + verdict(rows, verified(result, outputs)) + "\n";
   text += seam_table(rows, result.job);
   text += proven_table(result);
+  text += fairness_table(result);
   text += failed_checks(result);
   if (outputs)
     for (const std::string& p : shape_problems(result, *outputs)) text += "  " + p + "\n";

@@ -56,7 +56,7 @@ constexpr Field<Extreme> extreme_fields[] = {
     {"v", "number", "where it is, along the blend", [](const Extreme& e) { return JsonValue(e.at.v); }},
     {"point", "point", "where it is", [](const Extreme& e) { return point(e.point); }},
 };
-JsonValue extreme(const Extreme& e) { return written<Extreme>(e, extreme_fields); }
+JsonValue extreme(const Extreme& e) { return extreme_json(e); }
 
 /// A pair (sampled, proven) in the unit that it is reported in.
 struct ScaledProof {
@@ -180,6 +180,8 @@ constexpr Field<Stage> stage_fields[] = {
      [](const Stage& s) { return penetration(s, 1); }},
     {"self_intersections", "integer", "pairs of triangles that cross",
      [](const Stage& s) { return JsonValue(s.report.self_intersection.pairs); }},
+    {"fairness", "fairness or null", "energies and extremes of curvature; null: not asked for",
+     [](const Stage& s) { return s.report.fairness ? fairness_json(*s.report.fairness) : JsonValue(); }},
     {"findings", "list of finding", "every check that failed or has a note",
      [](const Stage& s) {
        const std::array asked{s.entry.sides[0].side.continuity, s.entry.sides[1].side.continuity};
@@ -366,6 +368,8 @@ constexpr Field<Report> report_fields[] = {
 
 }  // namespace
 
+JsonValue extreme_json(const Extreme& e) { return written<Extreme>(e, extreme_fields); }
+
 const std::vector<ObjectInfo>& report_objects() {
   static const std::vector<ObjectInfo> all = [] {
     ObjectInfo report = object_info<Report>("report", "What blendwright built and measured", report_fields);
@@ -383,6 +387,7 @@ const std::vector<ObjectInfo>& report_objects() {
         object_info<ScaledProof>("proof", "A figure as sampled and as proven", proof_fields),
         object_info<Deviation>("smallest", "A smallest value and its place", smallest_fields),
         object_info<Extreme>("extreme", "A value and its place on the blend", extreme_fields),
+        fairness_object(),
         object_info<ClosingReport>("closing", "Where a closed blend meets itself", closing_fields),
         object_info<Finding>("finding", "A defect or a note", finding_fields),
         object_info<StepContent>("step", "The STEP file as read back", step_fields),

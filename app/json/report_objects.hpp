@@ -6,6 +6,7 @@
 
 #include "app/json/job_keys.hpp"
 #include "app/json/json_value.hpp"
+#include "verify/surface/fairness.hpp"
 
 namespace blendwright {
 
@@ -33,6 +34,10 @@ template <class T>
   for (const Field<T>& f : fields) info.keys.push_back({f.name, f.type, f.description, true});
   return info;
 }
+
+[[nodiscard]] JsonValue extreme_json(const Extreme& extreme);
+[[nodiscard]] JsonValue fairness_json(const FairnessReport& fairness);
+[[nodiscard]] ObjectInfo fairness_object();
 
 /// Every object of a report; the first is the report itself.
 [[nodiscard]] const std::vector<ObjectInfo>& report_objects();

@@ -198,7 +198,7 @@ JobResult run_job(const JobSpec& job, const Progress& progress, const RunOptions
   JobResult result;
   result.job = job;
   result.options = options;
-  const VerifyOptions checks{.certify = options.certify};
+  const VerifyOptions checks{.certify = options.certify, .fairness = options.fairness};
   result.warnings = unused_primaries(job);
   StopWatch watch;
   progress.at(0.0, "building the primaries");

@@ -23,7 +23,8 @@ struct BlendResult {
 };
 
 struct RunOptions {
-  bool certify = false;  ///< prove bounds between the samples at every stage
+  bool certify = false;                       ///< prove bounds between the samples at every stage
+  std::optional<FairnessOptions> fairness{};  ///< measure fairness at every stage
 };
 
 struct JobResult {

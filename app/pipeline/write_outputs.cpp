@@ -25,7 +25,8 @@ void verify_step(JobResult& result, const StepContent& content) {
     if (face == content.faces.end())
       throw IoError("the STEP file read back has no face named \"" + blend.entry.name + "\"");
     blend.stages.push_back(
-        verify_blend(under_test(blend, face->surface), "step", {.certify = result.options.certify}));
+        verify_blend(under_test(blend, face->surface), "step",
+                     {.certify = result.options.certify, .fairness = result.options.fairness}));
   }
 }
 

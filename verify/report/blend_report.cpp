@@ -58,6 +58,7 @@ BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, 
   if (blend.closed) report.closing = check_closing(blend.blend);
   report.surface_checked = options.surface_checks;
   if (options.surface_checks) check_surface(blend, options, report);
+  if (options.fairness) report.fairness = fairness(blend.blend, *options.fairness);
   progress.at(1.0, "verifying " + blend.name);
   return report;
 }

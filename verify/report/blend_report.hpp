@@ -8,6 +8,7 @@
 
 #include "verify/certify/certificate.hpp"
 #include "verify/continuity/seam.hpp"
+#include "verify/surface/fairness.hpp"
 #include "verify/surface/surface_checks.hpp"
 
 namespace blendwright {
@@ -33,12 +34,14 @@ struct BlendReport {
   Extreme minimum_radius;
   std::array<std::optional<PenetrationReport>, 2> penetration;  ///< per side that has a primary
   SelfIntersectionReport self_intersection;
+  std::optional<FairnessReport> fairness{};  ///< when asked for
 };
 
 struct VerifyOptions {
   SeamOptions seam{};
-  bool certify = false;        ///< prove bounds of both seams
-  bool surface_checks = true;  ///< fold, radius, penetration, self-intersection
+  bool certify = false;                       ///< prove bounds of both seams
+  std::optional<FairnessOptions> fairness{};  ///< measure it
+  bool surface_checks = true;                 ///< fold, radius, penetration, self-intersection
   int nu = 32,
       nv = 128;  ///< cells of the grid that the surface checks share; penetration uses every second line
 };
