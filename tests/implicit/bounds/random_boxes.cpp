@@ -1,5 +1,6 @@
 #include "tests/implicit/bounds/random_boxes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -29,8 +30,9 @@ Remainder remainder(const LinearBound& bound, const Box& box, const Vec3& p, dou
   long double line = bound.value, size = std::abs(f) + std::abs(bound.value);
   for (int k = 0; k < 3; ++k) {
     if (!(h[k] > 0.0)) continue;
-    const long double term =
-        bound.slope[k] * ((static_cast<long double>(p[k]) - static_cast<long double>(c[k])) / h[k]);
+    // The centre is rounded, so that the ends of the box can be beyond t = +-1 by that.
+    const long double t = (static_cast<long double>(p[k]) - static_cast<long double>(c[k])) / h[k];
+    const long double term = bound.slope[k] * std::clamp(t, -1.0L, 1.0L);
     line += term;
     size += std::abs(term);
   }
