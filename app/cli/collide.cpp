@@ -52,7 +52,7 @@ std::string pair_text(std::span<const Body> bodies, const BodyPair& pair, const 
     rows.push_back({c.contact == Contact::disjoint ? "nearest place" : "place", shown_point(*c.point)});
   if (c.normal) rows.push_back({"normal", shown_point(*c.normal)});
   if (c.gap) rows.push_back({"distance", gap_text(*c.gap, unit)});
-  rows.push_back({"boxes examined", std::to_string(c.boxes)});
+  if (bodies.size() > 2) rows.push_back({"boxes examined", std::to_string(c.boxes)});
   return text + aligned(rows);
 }
 
@@ -94,6 +94,13 @@ std::string answer_text(std::span<const Body> bodies, const CollideJob& job, con
   return text;
 }
 
+std::string last_line(const CollideResult& result) {
+  std::string text =
+      "  " + std::to_string(result.boxes) + (result.boxes == 1 ? " box" : " boxes") + " examined";
+  if (result.files.empty()) return text;
+  return text + "\n" + written_files(result.files, [](const WrittenFile& f) { return size_text(f.bytes); });
+}
+
 int exit_code(const CollideCommand& command, const CollideResult& result) {
   if (command.expect.empty()) return result.undecided > 0 ? exit_not_verified : exit_done;
   const Contact expected = command.expect == "contact" ? Contact::contact : Contact::disjoint;
@@ -131,13 +138,7 @@ int collide(const CollideCommand& command, const Console& console) {
     if (command.json)
       console.out() << collision_report_json(bodies, job, result, command.times);
     else if (!command.quiet)
-      console.out() << answer_text(bodies, job, result)
-                    << with_seconds(result.files.empty() ? "nothing written"
-                                                         : written_files(result.files,
-                                                                         [](const WrittenFile& f) {
-                                                                           return size_text(f.bytes);
-                                                                         }),
-                                    run.seconds());
+      console.out() << answer_text(bodies, job, result) << with_seconds(last_line(result), run.seconds());
     return exit_code(command, result);
   });
 }

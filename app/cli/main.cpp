@@ -321,10 +321,12 @@ void add_collide(CLI::App& app, CollideCommand& command, const Console& console,
   sub->add_flag("--quiet", command.quiet, "no table, no warnings, no progress");
   add_threads(sub, command.threads);
   sub->footer(
-      "\nAnswers: disjoint and in contact are proven, also for touching solids; undecided is what remains\n"
-      "below the tolerance or beyond the work limit. Of several pairs and steps, the answer is contact when\n"
-      "any is in contact, else undecided when any is. gap > 0 estimates the distance, gap < 0 the depth of\n"
-      "penetration, to first order; the normal leads from the first body to the second.\n"
+      "\nAnswers: disjoint and in contact are proven; undecided is what remains below the tolerance or "
+      "beyond\n"
+      "the work limit. Touching is contact, but mostly too close to be decided. Of several pairs and steps,\n"
+      "the answer is contact when any is in contact, else undecided when any is. gap > 0 estimates the\n"
+      "distance, gap < 0 the depth of penetration, to first order; the normal leads from the first body to\n"
+      "the second.\n"
       "Exit code 0: decided either way; 1: a pair is undecided. With --expect: 0 when the answer is the\n"
       "expected one, else 1.\n"
       "\nExamples:\n"

@@ -24,7 +24,8 @@ int mesh(const MeshCommand& command, const Console& console) {
     } else if (!command.quiet) {
       console.out() << shown_name(command.scene) << ": " << solid_name(scene)
                     << counted(scene.scene.nodes, "node") << '\n'
-                    << mesh_table(scene, result) << with_seconds(written_text(result.files), run.seconds());
+                    << aligned(mesh_rows(scene, result))
+                    << with_seconds(written_text(result.files), run.seconds());
     }
     return exit_done;
   });

@@ -31,7 +31,7 @@ MeshJob mesh_job_of(const MeshCommand& command) {
   return job;
 }
 
-std::string mesh_table(const SceneFile& scene, const MeshResult& result) {
+TextRows mesh_rows(const SceneFile& scene, const MeshResult& result) {
   const MeshFacts& f = result.made.facts;
   const std::string unit = name(scene.spec.unit);
   const bool open = f.cut_by_box && result.options.at_box == MeshOptions::AtBox::open;
@@ -48,7 +48,7 @@ std::string mesh_table(const SceneFile& scene, const MeshResult& result) {
                                        distance_text(f.mean_distance) + " on average"}};
   if (f.without_normal > 0)
     rows.push_back({"without normal", counted(f.without_normal, "vertex") + ": the gradient vanishes there"});
-  return aligned(rows);
+  return rows;
 }
 
 std::string solid_name(const SceneFile& scene) {

@@ -3,12 +3,13 @@
 #include <string>
 
 #include "app/cli/console.hpp"
+#include "app/cli/text_table.hpp"
 #include "app/pipeline/mesh_job.hpp"
 
 namespace blendwright {
 
-/// Its figures, one per line.
-[[nodiscard]] std::string mesh_table(const SceneFile& scene, const MeshResult& result);
+/// Its figures: what, and how much.
+[[nodiscard]] TextRows mesh_rows(const SceneFile& scene, const MeshResult& result);
 /// "the solid "body", "; empty for a node in place, which has no name that people know.
 [[nodiscard]] std::string solid_name(const SceneFile& scene);
 /// "wrote body.vtp (1.2 MB)", or that nothing was.

@@ -48,13 +48,12 @@ TextRows check_rows(const OffsetCheck& c, const std::string& unit) {
                                       " rms, over " + counted(e.samples - e.without_root, "point")},
                 {"", "worst at " + shown_point(e.where)}};
   if (e.without_root > 0)
-    rows.push_back({"", "no offset surface near " + counted(e.without_root, "other point") +
-                            ", as where it is trimmed"});
+    rows.push_back({"", "none near " + counted(e.without_root, "other point") + ", as where it is trimmed"});
   return rows;
 }
 
-std::string check_table(const OffsetResult& result) {
-  TextRows rows;
+std::string offset_table(const OffsetResult& result) {
+  TextRows rows = mesh_rows(result.scene, result.mesh);
   for (const OffsetCheck& c : result.checks)
     for (auto& row : check_rows(c, name(result.scene.spec.unit))) rows.push_back(std::move(row));
   return aligned(rows);
@@ -81,8 +80,7 @@ int offset(const OffsetCommand& command, const Console& console) {
     } else if (!meshing.quiet) {
       console.out() << shown_name(meshing.scene) << ": " << result.scene.spec.solid << ", "
                     << counted(result.scene.scene.nodes, "node") << '\n'
-                    << mesh_table(result.scene, result.mesh) << check_table(result)
-                    << with_seconds(written_text(result.mesh.files), run.seconds());
+                    << offset_table(result) << with_seconds(written_text(result.mesh.files), run.seconds());
     }
     return exit_done;
   });

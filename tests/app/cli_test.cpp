@@ -40,11 +40,13 @@ TEST(Program, SaysItsVersionAndHelpsWithAnExamplePerVerb) {
   EXPECT_THAT(run_program("--version").out, HasSubstr("blendwright "));
   const Outcome help = run_program("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* verb : {"blend", "verify", "mesh", "eval", "inspect", "list", "schema"}) {
+  for (const char* verb :
+       {"blend", "verify", "mesh", "eval", "offset", "relate", "collide", "inspect", "list", "schema"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("  blendwright ") + verb + " "));
     const Outcome own = run_program(std::string(verb) + " --help");
     EXPECT_EQ(own.code, 0);
-    EXPECT_THAT(own.out, AllOf(HasSubstr("Example:"), HasSubstr(std::string("blendwright ") + verb + " ")));
+    EXPECT_THAT(own.out, AllOf(testing::ContainsRegex("Examples?:"),
+                               HasSubstr(std::string("blendwright ") + verb + " ")));
   }
 }
 

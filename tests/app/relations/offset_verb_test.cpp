@@ -89,8 +89,8 @@ TEST_F(OffsetVerb, MakesShellsRoundsAndFillets) {
 }
 
 TEST_F(OffsetVerb, SaysThatNothingIsLeftAndProvesIt) {
-  for (const char* arguments : {"--distance -2.5", "--round 2.5", 
-                                "--solid egg --distance=-1.5", "--distance=-3 --kind iso"}) {
+  for (const char* arguments :
+       {"--distance -2.5", "--round 2.5", "--solid egg --distance=-1.5", "--distance=-3 --kind iso"}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = files_.run(std::string("offset ball.json -o left.vtp ") + arguments);
     EXPECT_EQ(outcome.code, 4) << outcome.out;
