@@ -1,8 +1,9 @@
 #include "parametric/rolling_ball/ball_contact.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "kernel/math/small_solve.hpp"
 
 namespace blendwright {
 namespace {
@@ -86,7 +87,7 @@ Corrected corrected_in_plane(const BallPair& pair, const Vec3& start, const Vec3
     N << contact->feet[0].normal.transpose(), contact->feet[1].normal.transpose(), across.transpose();
     const Vec2 E = defects(pair, *contact);
     const double off = (contact->c - origin).dot(across);
-    const Vec3 c = contact->c - N.inverse() * Vec3(E[0], E[1], off);
+    const Vec3 c = contact->c - solve_small<3, 1>(N, Vec3(E[0], E[1], off));
     if (!c.allFinite()) return Cause::lost;
     last = E.cwiseAbs().maxCoeff() <= touching(pair) && std::abs(off) <= touching(pair);
     const std::array<BallFoot, 2> feet = contact->feet;

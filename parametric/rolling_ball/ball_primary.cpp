@@ -1,13 +1,17 @@
 #include "parametric/rolling_ball/ball_primary.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "kernel/geometry/project.hpp"
+#include "kernel/math/small_solve.hpp"
 
 namespace blendwright {
 namespace {
+
+Eigen::Matrix2d inverse_of(const Eigen::Matrix2d& A) {
+  return solve_small<2, 2>(A, Eigen::Matrix2d::Identity());
+}
 
 constexpr int max_steps = 40;
 /// A Newton step this much shorter than the model leaves an error of the order of its square, below rounding.
@@ -54,7 +58,7 @@ void set_second_order(BallFoot& foot, const Vec3& c, const Eigen::Matrix<double,
   foot.room = 1.0 + std::min(foot.distance * (mean - spread), foot.distance * (mean + spread));
   if (!(foot.room > 0.0)) return;
   const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() + foot.distance * W;
-  foot.turn = e * (W * A.inverse()) * e.transpose();
+  foot.turn = e * (W * inverse_of(A)) * e.transpose();
 }
 
 /// Whether c - p stands on the surface, up to rounding of the coordinates.
@@ -83,7 +87,7 @@ std::optional<BallFoot> foot_of(const ScalarField& field, const Vec3& c, Vec3 p)
     M.bottomLeftCorner<1, 3>() = phi.g.transpose() / scale;
     Eigen::Vector4d rest;
     rest << p - c + l * phi.g, phi.f / scale;
-    const Eigen::Vector4d step = M.partialPivLu().solve(-rest);
+    const Eigen::Vector4d step = solve_small<4, 1>(M, -rest);
     if (!step.allFinite()) return std::nullopt;
     Vec3 dp = step.head<3>();
     // No farther than the centre is, or the flat far side of a field attracts.
@@ -130,7 +134,7 @@ std::optional<BallFoot> foot_at(const SurfaceJet& j, bool reversed, const Vec3& 
   J << e.col(0).dot(j.Su), e.col(0).dot(j.Sv), e.col(1).dot(j.Su), e.col(1).dot(j.Sv);
   const Vec3& n = foot.normal;
   II << n.dot(j.Suu), n.dot(j.Suv), n.dot(j.Suv), n.dot(j.Svv);
-  const Eigen::Matrix2d Ji = J.inverse();
+  const Eigen::Matrix2d Ji = inverse_of(J);
   set_second_order(foot, c, e, Eigen::Matrix2d(-(Ji.transpose() * II * Ji)));
   return foot;
 }
