@@ -4,7 +4,9 @@
 // Signed radii r_i, |r_1| = |r_2|; E_i(c) = (c - p_i(c)).n_i - r_i = 0, grad E_i = n_i (1) shortest
 // correction: c -= N^T (N N^T)^-1 E, N = [n_1; n_2]                                                (2) T =
 // n_1 x n_2/|n_1 x n_2|                                                                                 (3)
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <variant>
 
 #include "parametric/rolling_ball/ball_primary.hpp"

@@ -113,6 +113,12 @@ std::vector<BallFoot> starts(const BallPair& pair, const Candidate& box, std::si
 void correct(const BallPair& pair, const Candidate& box, std::vector<BallContact>& found,
              std::vector<BallFailure>& failures) {
   const std::vector<BallFoot> first = starts(pair, box, 0), second = starts(pair, box, 1);
+  // A foot is a point of the primary: it must not be in every ball of the box.
+  const auto in_all = [&](const BallFoot& foot) {
+    return (foot.point - box.centre).norm() < std::abs(pair.radius[0]) - box.reach;
+  };
+  if (std::any_of(first.begin(), first.end(), in_all) || std::any_of(second.begin(), second.end(), in_all))
+    return;
   for (const BallFoot& a : first)
     for (const BallFoot& b : second) {
       const Corrected there = corrected(pair, box.centre, {a, b}, seed_corrections);

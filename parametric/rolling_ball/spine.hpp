@@ -9,6 +9,8 @@
 // from a subdivision of a box of centres, since components need not be near any edge. Sources: Rossignac and
 // Requicha 1984; Hoffmann, Geometric and Solid Modeling, 1989, chs 6 and 7; Patrikalakis and Maekawa 2002.
 #include <array>
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,7 +63,9 @@ struct SpineSpec {
   double chord_tolerance = 0.0;  ///< between chords and spine, model units; 0: r/1000
   double seed_size = 0.0;  ///< components of this extent are found, model units; 0: r/4, or 1/100 of the
                            ///< box's diagonal where that is more
-  enum class Seeds { edge, box, both } seeds = Seeds::both;
+  /// edge: only along the edge where the primaries meet, which is faster and misses components away from it;
+  /// box: everywhere, edges too.
+  enum class Seeds { edge, box, both } seeds = Seeds::box;
   std::vector<BallPrimary> others{};  ///< parts that the ball must not meet, besides the two
 };
 
@@ -114,7 +118,8 @@ struct SpineSet {
 
 /// All components whose centres are in the box; a part of one that leaves the box is a component, and ends
 /// there. For fields no box with a part of a spine is given up wrongly (bounds of the field, and the distance
-/// to a surface changes by no more than the centre moves); surfaces are covered by samples. Throws InputError
+/// to a surface changes by no more than the centre moves); surfaces are covered by samples. A component along
+/// which the ball meets a primary elsewhere all the way is none. Throws InputError
 /// ("radius", "box", "chord_tolerance", "seed_size").
 [[nodiscard]] SpineSet find_spines(const BallPair& pair, const SpineSpec& spec);
 

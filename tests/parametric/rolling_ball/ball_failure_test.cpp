@@ -49,11 +49,9 @@ TEST(BallFailure, TangentWhereTheSpineShrinksToAPoint) {
   EXPECT_EQ(set.failures.back().cause, Cause::tangent) << set.failures.back().message;
 }
 
-/// A trough z = x^2/2 (1 - y^2)... with the end wall y = 0: its smallest radius of curvature, 1/a, is at x =
-/// 0.
 TEST(BallFailure, CurvatureWhereTheBallIsLargerThanTheHollow) {
-  // The floor z = 1.5 exp-free trough: z = a x^2 has the radius of curvature 1/(2a) at its bottom. The side
-  // wall turns about the z axis, so that the spine comes down into the trough.
+  // The trough z = a x^2 has the radius of curvature 1/(2a) at its bottom, which the spine along the wall
+  // y = 0.6 x comes down to.
   const double a = 1.5, r = 0.45;                                             // 1/(2a) = 0.333 < r
   const ScalarField trough = quadric_field({a, 0, 0, 0, 0, 0, 0, 0, -1, 0});  // z <= a x^2
   const ScalarField wall = quadric_field({0, 0, 0, 0, 0, 0, 0.6, -1, 0, 0});  // y >= 0.6 x is outside
@@ -90,8 +88,8 @@ TEST(BallFailure, InterferenceWithAnotherPart) {
   ASSERT_EQ(set.spines.size(), 1u);
   ASSERT_TRUE(set.spines[0].interference);
   EXPECT_THAT(causes(set), ::testing::ElementsAre(Cause::interference));
-  // The traced point nearest to the post is at most half a step, 2 deg of the spine, away: the ball is there
-  // less deep by (0.35/2)(x/0.35 + ...) 0.035^2, below 2e-3.
+  // Steps are sqrt(8 0.00025 x) = 0.05 long, so that a traced point is within 0.02 rad of the post's
+  // direction; the gap is larger there by x (x + 0.35) 0.02^2/(2 0.35) = 1.2e-3.
   EXPECT_NEAR(set.failures[0].depth, 0.1, 2e-3);
   EXPECT_LE((set.failures[0].at - Vec3(x, 0, 0.25)).norm(), 0.05);
   // Just beside it there is none.

@@ -149,7 +149,10 @@ double parameter_error(const SpinePoint& ball, const RelationSample& sample) {
 int expect_case(const RelationCase& c, const Scene& scene) {
   int compared = 0;
   for (const BallPair& pair : scene.pairs) {
-    const SpineSet set = find_spines(pair, in_box(scene.box));
+    // All of these primaries meet, and their spines run along the edges.
+    SpineSpec spec = in_box(scene.box);
+    spec.seeds = SpineSpec::Seeds::edge;
+    const SpineSet set = find_spines(pair, spec);
     EXPECT_FALSE(set.spines.empty());
     for (const RelationSample& sample : c.samples) {
       const double place = sample.numbers.at(scene.key);
