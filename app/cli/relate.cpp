@@ -116,7 +116,9 @@ int relate_solids(const RelateCommand& command, std::span<const Body> bodies, co
   else if (!command.quiet)
     console.out() << relation_text(relation, bodies) << (decided ? ", proven\n" : "\n")
                   << relation_table(relation, bodies, options)
-                  << with_seconds("  " + std::to_string(boxes_of(relation)) + " boxes", run.seconds());
+                  << with_seconds("  " + std::to_string(boxes_of(relation)) +
+                                      (boxes_of(relation) == 1 ? " box" : " boxes"),
+                                  run.seconds());
   return decided ? exit_done : exit_not_verified;
 }
 

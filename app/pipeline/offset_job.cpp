@@ -80,7 +80,8 @@ void refuse_empty(const SceneFile& original, const SceneFile& offset, const Offs
   if (proof.answer == Answer::proven)
     throw GeometryError(offset_text(request, original.spec.unit) + " leaves nothing of " +
                         (original.spec.solid.front() == '/' ? "the solid" : in_quotes(original.spec.solid)) +
-                        ": proven with " + std::to_string(proof.boxes) + " boxes");
+                        ": proven with " + std::to_string(proof.boxes) +
+                        (proof.boxes == 1 ? " box" : " boxes"));
 }
 
 /// " of body"; a node in place has no name that people know.
