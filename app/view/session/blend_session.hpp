@@ -1,0 +1,108 @@
+#pragma once
+// A job being shaped by hand: what the viewer drags, without a window. Every change goes through apply(), so
+// that undo, redo, saving and tests see the same history.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/pipeline/run_job.hpp"
+
+namespace blendwright {
+
+/// A number or a choice of one blend, as a slider shows it.
+struct SessionControl {
+  std::string name;   ///< "fillet: tension", "fillet: magnitude from"
+  std::string label;  ///< short, for the slider: "tension"
+  std::size_t blend = 0;
+  enum class Kind { number, choice } kind = Kind::number;
+  double value = 0.0, low = 0.0, high = 1.0;  ///< choice: index
+  bool logarithmic = false;
+  std::vector<std::string> choices{};
+};
+
+/// A point on a trimline to take hold of.
+struct SessionHandle {
+  enum class Kind {
+    trimline,  ///< moves the trimline along its primary, here and smoothly around
+    magnitude  ///< sits at C + T / 3; changes the magnitude here and smoothly around
+  } kind = Kind::trimline;
+  std::size_t blend = 0, side = 0, index = 0;  ///< index along the line
+  double v = 0.0;
+  Vec3 position;
+};
+
+/// The surface as it is drawn: a grid of points with exact normals and error columns, filled anew by every
+/// reshape into the same memory.
+struct SessionGrid {
+  std::size_t nu = 0, nv = 0;                         ///< point i * nv + j at u_i, v_j
+  std::vector<float> positions;                       ///< 3 per point, relative to `origin`
+  std::vector<float> normals;                         ///< 3 per point, exact
+  std::vector<float> gap, angle_deg, curvature_jump;  ///< of the trimlines, blended linearly across
+  Vec3 origin = Vec3::Zero();
+};
+
+/// What picking shows.
+struct PickedPoint {
+  std::string object;  ///< "fillet", "main pipe"
+  Vec3 point;
+  std::optional<UV> uv{};
+  Vec3 normal = Vec3::Zero();
+  std::optional<double> mean_curvature{}, gaussian_curvature{}, least_radius{};
+  std::optional<double> gap{}, angle_deg{}, curvature_jump{};
+};
+
+class BlendSession {
+ public:
+  /// `text`: the job file's own text. Builds every blend. Throws as read_job and run_job do.
+  BlendSession(const std::string& text, JobSpec job, std::size_t nu = 200, std::size_t nv = 200);
+  ~BlendSession();
+  BlendSession(BlendSession&&) noexcept;
+  BlendSession& operator=(BlendSession&&) noexcept;
+
+  [[nodiscard]] std::vector<SessionControl> controls() const;
+  [[nodiscard]] std::vector<SessionHandle> handles() const;
+  [[nodiscard]] std::size_t blends() const;
+  [[nodiscard]] const JobSpec& job() const;
+  [[nodiscard]] const SessionGrid& grid(std::size_t blend) const;
+  [[nodiscard]] const Blend& blend(std::size_t blend) const;
+  [[nodiscard]] const std::vector<std::pair<std::string, Surface>>& primaries() const;
+
+  /// Sets control `index` of controls(); values are clamped to its range. A value that cannot be built
+  /// (resonance, trimlines that cross) leaves everything as it was and says why.
+  struct Outcome {
+    bool done = true;
+    std::string message{};  ///< for the status line; empty: nothing to say
+  };
+  Outcome set(std::size_t control, double value);
+  /// Moves a handle towards `target`, a point in space: a trimline handle to the nearest place of its
+  /// primary, a magnitude handle along T.
+  Outcome drag(const SessionHandle& handle, const Vec3& target);
+  /// Ends one gesture: everything since the last commit() is one step of undo.
+  void commit();
+  bool undo();
+  bool redo();
+  [[nodiscard]] bool changed() const;  ///< since the last save
+
+  /// Worst gap and angle of blend k to its primaries, measured now (verify's seams at 65 places).
+  struct Errors {
+    double gap = 0.0, angle_deg = 0.0, curvature_jump = 0.0;
+  };
+  [[nodiscard]] Errors errors(std::size_t blend) const;
+  [[nodiscard]] PickedPoint picked(std::size_t blend, UV at) const;
+
+  /// The job's text with the changes (comments and layout kept); marks the session as saved.
+  [[nodiscard]] std::string saved_text();
+  /// The result as `blend` would make it, for STEP and the other formats.
+  [[nodiscard]] JobResult result(const Progress& progress = {}) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace blendwright
