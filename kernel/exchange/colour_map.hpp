@@ -1,16 +1,14 @@
 #pragma once
-// Private: viridis, perceptually uniform and readable in grey and by colour-blind people.
+// Private: tables of the maps of colour_scale.hpp for VTK, and colours of curves.
 #include <vtkLookupTable.h>
 #include <vtkSmartPointer.h>
 
-#include "kernel/brep/shape.hpp"
+#include "kernel/exchange/colour_scale.hpp"
 
 namespace blendwright {
 
-/// t in [0, 1].
-[[nodiscard]] Colour viridis(double t);
-/// 256 colours of viridis over lo ... hi; grey for NaN.
-[[nodiscard]] vtkSmartPointer<vtkLookupTable> viridis_table(double lo, double hi);
+/// 256 colours over lo ... hi; grey for NaN.
+[[nodiscard]] vtkSmartPointer<vtkLookupTable> colour_table(ColourMap map, double lo, double hi);
 
 /// Distinct colours of curves (Okabe and Ito's set, made for colour-blind readers), repeating.
 [[nodiscard]] Colour curve_colour(std::size_t index);

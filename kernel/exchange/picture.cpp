@@ -33,7 +33,6 @@ constexpr double title_height = 0.085, bar_column = 0.16;     // of the picture
 constexpr double filled = 0.90;                               // of the free area, by the object
 constexpr double surroundings = 5.0;                          // most that is shown, in sizes of the focus
 constexpr double tube_radius = 0.0026, weld_distance = 1e-7;  // of the object's size
-constexpr int bar_decades = 5, bar_ticks = 9;  // errors cross zero, which would take any number of decades
 constexpr double key_swatch = 18.0, key_space = 9.0, key_line = 30.0;  // pixels
 const TextStyle key_style{.size = 15};
 const Vec3 default_view(1.0, -1.2, 0.8);
@@ -93,7 +92,7 @@ const Column& coloured_column(const Picture& picture, const TriMesh& mesh) {
                    "is \"" + picture.column + "\", which the mesh \"" + mesh.name + "\" does not have");
 }
 
-std::optional<Axis> bar_axis(const Picture& picture) {
+std::optional<ColourScale> bar_scale(const Picture& picture) {
   if (picture.column.empty()) return std::nullopt;
   std::vector<double> all;
   bool any = false;
@@ -104,11 +103,7 @@ std::optional<Axis> bar_axis(const Picture& picture) {
     all.insert(all.end(), column.values.begin(), column.values.end());
   }
   if (!any) return std::nullopt;
-  const ValueRange range = range_of(all);
-  if (!picture.logarithmic) return linear_axis(range, bar_ticks - 2);
-  Axis axis = log_axis(range, bar_decades, bar_ticks);
-  if (range.least <= 0.0 || std::log10(range.least) < axis.lo) axis.ticks.back().label.insert(0, "< ");
-  return axis;
+  return ColourScale::over(all, picture.logarithmic ? ScaleRule::logarithmic : ScaleRule::linear);
 }
 
 vtkSmartPointer<vtkPoints> points_of(const std::vector<Vec3>& from) {
@@ -143,18 +138,18 @@ void shade(vtkProperty& property, const Colour& colour, double opacity) {
 }
 
 void add_surface(vtkRenderer& renderer, const PictureMesh& m, const Picture& picture,
-                 const std::optional<Axis>& axis) {
+                 const std::optional<ColourScale>& scale) {
   const vtkSmartPointer<vtkPolyData> data = surface_of(m.mesh);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->ScalarVisibilityOff();
-  if (m.coloured && axis) {
+  if (m.coloured && scale) {
     // Position on the bar, so that colours between points follow the bar's scale.
     vtkNew<vtkDoubleArray> values;
     for (const double v : coloured_column(picture, m.mesh).values)
-      values->InsertNextValue(std::isnan(v) ? v : axis->position(v));
+      values->InsertNextValue(std::isnan(v) ? v : scale->axis().position(v));
     data->GetPointData()->SetScalars(values);
     mapper->ScalarVisibilityOn();
-    mapper->SetLookupTable(viridis_table(0.0, 1.0));
+    mapper->SetLookupTable(colour_table(scale->map(), 0.0, 1.0));
     mapper->UseLookupTableScalarRangeOn();
     mapper->InterpolateScalarsBeforeMappingOn();
   }
@@ -291,14 +286,15 @@ void aim(vtkRenderer& renderer, const Frame& frame, const Extents& extents, cons
 }
 
 /// The colour bar with its scale and its title, in the column right of the object.
-void draw_bar(Canvas& canvas, const PixelBox& column, const Axis& axis, const std::string& title) {
+void draw_bar(Canvas& canvas, const PixelBox& column, const ColourScale& scale, const std::string& title) {
+  const Axis& axis = scale.axis();
   const double height = std::min(0.74 * column.height(), 26.0 * 20);
   const double bottom = column.bottom + 0.5 * (column.height() - height);
   const PixelBox bar{column.left + 10, bottom, column.left + 30, bottom + height};
   constexpr int steps = 128;
   for (int i = 0; i < steps; ++i)
     canvas.fill({bar.left, bar.bottom + height * i / steps, bar.right, bar.bottom + height * (i + 1) / steps},
-                viridis((i + 0.5) / steps));
+                colour_at(scale.map(), (i + 0.5) / steps));
   canvas.frame(bar, border_colour, 1.0);
   const TextStyle label{.size = 15};
   double widest = 0.0;
@@ -334,7 +330,7 @@ void draw_keys(Canvas& canvas, const PixelBox& column, const std::vector<Picture
   }
 }
 
-vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<Axis>& axis,
+vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<ColourScale>& scale,
                                    const PixelBox& area) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetViewport(area.left / picture.width, area.bottom / picture.height, area.right / picture.width,
@@ -348,7 +344,7 @@ vtkSmartPointer<vtkRenderer> scene(const Picture& picture, const std::optional<A
   for (const PictureMesh& m : picture.meshes) {
     if (!m.edges.empty()) add_given_edges(*renderer, m);
     if (m.mesh.triangles.empty()) continue;
-    add_surface(*renderer, m, picture, axis);
+    add_surface(*renderer, m, picture, scale);
     if (!m.coloured && m.edges.empty()) add_border(*renderer, m.mesh, weld_distance * extent.size());
     translucent = translucent || m.opacity < 1.0;
   }
@@ -377,23 +373,23 @@ void write_picture(const std::filesystem::path& png, const Picture& picture, con
                                       ", must be below " + std::to_string(m.mesh.points.size()));
   }
   for (const PolyLine& line : picture.lines) require_consistent(line);
-  const std::optional<Axis> axis = bar_axis(picture);
+  const std::optional<ColourScale> scale = bar_scale(picture);
 
   const VtkMessages messages;
   RenderTarget target(picture.width, picture.height);
-  const double right = axis ? picture.width * (1.0 - bar_column) : picture.width - key_width(picture.keys);
+  const double right = scale ? picture.width * (1.0 - bar_column) : picture.width - key_width(picture.keys);
   const double top = picture.title.empty() ? picture.height : picture.height * (1.0 - title_height);
   Canvas canvas;
   const TextStyle style = Canvas::fitting(picture.title, {.size = 23, .align = Align::centre, .bold = true},
                                           0.96 * picture.width);
   canvas.text({0.5 * picture.width, 0.5 * (top + picture.height)}, picture.title, style);
-  if (axis)
-    draw_bar(canvas, {right, 0.0, static_cast<double>(picture.width), top}, *axis,
+  if (scale)
+    draw_bar(canvas, {right, 0.0, static_cast<double>(picture.width), top}, *scale,
              picture.bar_title.empty() ? picture.column : picture.bar_title);
   else
     draw_keys(canvas, {right, 0.0, static_cast<double>(picture.width), top}, picture.keys);
   canvas.finish(target, 0);
-  const vtkSmartPointer<vtkRenderer> renderer = scene(picture, axis, {0.0, 0.0, right, top});
+  const vtkSmartPointer<vtkRenderer> renderer = scene(picture, scale, {0.0, 0.0, right, top});
   target.add(*renderer, 1);
   target.write_png(png);
 }
