@@ -28,11 +28,6 @@ enum class MagnitudeRule {
   constant          ///< m = factor, model units
 };
 
-/// One value of a law along v: at the fraction t in [0, 1] of the range.
-struct LawPoint {
-  double t = 0.0, value = 1.0;
-};
-
 struct SideSpec {
   Continuity continuity = Continuity::G1;
   MagnitudeRule rule = MagnitudeRule::circle_like;

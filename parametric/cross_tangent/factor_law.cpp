@@ -1,40 +1,15 @@
 #include "parametric/cross_tangent/factor_law.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "kernel/base/number_text.hpp"
+#include "parametric/trimline/law_spline.hpp"
 
 namespace blendwright {
 
 FactorLaw::FactorLaw(const std::vector<LawPoint>& points, CurveDomain domain)
-    : domain_(domain), constant_(points.front().value) {
-  std::vector<double> t, value;
-  for (const LawPoint& p : points) {
-    t.push_back(p.t);
-    value.push_back(p.value);
-  }
-  if (domain.closed && t.size() > 1 && t.back() == t.front() + 1.0) {  // repeats the first point
-    t.pop_back();
-    value.pop_back();
-  }
-  if (t.size() < 2) return;
-  if (!domain.closed) {
-    if (t.front() > 0.0) t.insert(t.begin(), 0.0), value.insert(value.begin(), value.front());
-    if (t.back() < 1.0) t.push_back(1.0), value.push_back(value.back());
-    spline_ = ScalarSpline::open(std::move(t), value);
-    return;
-  }
-  // The spline over several periods of repeated data is unique, hence has the short period itself.
-  const std::size_t count = t.size(), periods = (ScalarSpline::degree + count) / count;
-  std::vector<double> breaks, repeated;
-  for (std::size_t k = 0; k < periods; ++k)
-    for (std::size_t i = 0; i < count; ++i) {
-      breaks.push_back(t[i] + static_cast<double>(k));
-      repeated.push_back(value[i]);
-    }
-  breaks.push_back(t[0] + static_cast<double>(periods));
-  spline_ = ScalarSpline::closed(std::move(breaks), repeated);
-}
+    : domain_(domain), constant_(points.front().value), spline_(law_spline(points, domain.closed)) {}
 
 double FactorLaw::operator()(double v) const {
   return spline_ ? (*spline_)((v - domain_.v.lo) / domain_.v.length()) : constant_;
@@ -53,15 +28,9 @@ std::vector<Problem> check_law(const std::vector<LawPoint>& points, bool closed,
   if (points.empty()) problems.push_back({where, "is empty, must have at least one value"});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const LawPoint& p = points[i];
-    const std::string at = where + "/" + std::to_string(i);
-    if (!(p.t >= 0.0 && p.t <= 1.0))
-      problems.push_back(
-          {at, "is at t = " + number_text(p.t) + ", must lie in [0, 1] (fraction of the range)"});
+    for (Problem& problem : check_law_place(points, i, where)) problems.push_back(std::move(problem));
     if (!(p.value > 0.0) || !std::isfinite(p.value))
-      problems.push_back({at, "is " + number_text(p.value) + ", must be > 0"});
-    if (i > 0 && !(p.t > points[i - 1].t))
-      problems.push_back(
-          {at, "is at t = " + number_text(p.t) + ", must come after " + number_text(points[i - 1].t)});
+      problems.push_back({where + "/" + std::to_string(i), "is " + number_text(p.value) + ", must be > 0"});
   }
   if (closed && points.size() > 1 && points.front().t == 0.0 && points.back().t == 1.0 &&
       points.front().value != points.back().value)

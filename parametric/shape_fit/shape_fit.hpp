@@ -147,4 +147,11 @@ using FitStep = std::function<void(int iteration, double cost, const Blend& blen
                                        double tolerance, const ShapeFitOptions& options,
                                        const Progress& progress = {}, const FitStep& step = {});
 
+/// The same for boundary data typed as formulas: nothing but the shape can change. `result.spec` carries the
+/// shape only; it reproduces the blend with make_literal_blend on the same ends. Unknowns of the sides and of
+/// the correspondence at their defaults are taken as not asked for.
+[[nodiscard]] ShapeFitResult fit_literal_shape(const EndCondition& end0, const EndCondition& end1,
+                                               const BlendShape& start, const ShapeFitOptions& options,
+                                               const Progress& progress = {}, const FitStep& step = {});
+
 }  // namespace blendwright

@@ -5,6 +5,7 @@
 
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
+#include "parametric/trimline/given_map.hpp"
 #include "parametric/trimline/line_map.hpp"
 #include "parametric/trimline/line_point.hpp"
 #include "parametric/trimline/twist_map.hpp"
@@ -216,6 +217,12 @@ void check(const Trimline& line0, const Trimline& line1, const CorrespondenceSpe
     throw InputError("seam_offset",
                      "is " + number_text(*spec.seam_offset) +
                          ", but the trimlines are open; an offset belongs to closed trimlines");
+  const bool is_mapped = spec.rule == CorrespondenceRule::mapped;
+  if (!is_mapped && !spec.map.empty())
+    throw InputError("map", "is given, but the rule is not mapped; take that rule or leave the map out");
+  if (!is_mapped) return;
+  std::vector<Problem> problems = check_map(spec.map, line0.domain().closed);
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 }  // namespace
@@ -231,11 +238,13 @@ Correspondence correspond(const Trimline& line0, const Trimline& line1, const Co
   const Interval range = as_given ? line0.domain().v : Interval{0.0, 1.0};
   Correspondence c{mapped(f0, 0.0, 1.0, range), mapped(f1, a.offset, a.reversed ? -1.0 : 1.0, range),
                    a.reversed, line0.domain().closed ? a.offset : 0.0, 0.0};
-  if (spec.rule == CorrespondenceRule::minimal_twist) {
-    const FractionMap g = least_twist_map(c.line0, c.line1, line0.domain().closed && !spec.seam_offset);
+  const bool closed = line0.domain().closed, is_mapped = spec.rule == CorrespondenceRule::mapped;
+  if (is_mapped || spec.rule == CorrespondenceRule::minimal_twist) {
+    const FractionMap g = is_mapped ? given_map(spec.map, closed)
+                                    : least_twist_map(c.line0, c.line1, closed && !spec.seam_offset);
     const double start = g(Series(0.0)).value();
     c.line1 = mapped({c.line1, g}, 0.0, 1.0, range);
-    if (line0.domain().closed) {
+    if (closed) {
       c.seam_offset += a.reversed ? -start : start;
       c.seam_offset -= std::floor(c.seam_offset);
     }
