@@ -112,6 +112,8 @@ OdeBlend::OdeBlend(EndCondition end0, EndCondition end1, BlendShape shape)
       std::copy_n(phi.value[2].begin(), 4, completion_[i].begin());
     }
   }
+  for (std::size_t x = 0; x < 3 && order_ == 4; ++x)
+    bends_[x] = shape_.repeated_root ? end_bends(*shape_.repeated_root) : end_bends(shape_.ode[x]);
   check_ends();
 }
 
@@ -238,31 +240,6 @@ SurfacePartials OdeBlend::partials(UV p) const {
   for (int i = 0; i <= 3; ++i)
     for (int j = 0; j <= 2 && i + j <= 4; ++j) P(i, j) = derivative(G[static_cast<std::size_t>(i)], j);
   return P;
-}
-
-void OdeBlend::enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
-  const bool at_end = u.exact() && (u.centre() == 0.0 || u.centre() == 1.0);
-  if (!at_end) out.unproven = "a blend is enclosed along its ends only";
-  if (!ends_[0].enclosure || !ends_[1].enclosure) out.unproven = "the blend's data have no enclosure";
-  if (!out.unproven.empty()) return;
-  const std::size_t side = u.centre() == 0.0 ? 0 : 1;
-  const EndEnclosure end = ends_[side].enclosure(v);
-  out.unproven = end.unproven;
-  out.S = end.C[0];
-  out.Sv = end.C[1];
-  out.Svv = end.C[2];
-  out.Su = end.T[0];
-  out.Suv = end.T[1];
-  out.Suu = unknown_vector();
-  if (order_ == 4) return;
-  out.Suu = end.D;
-  if (ends_[side].continuity == Continuity::G2) return;
-  const EndEnclosure other = ends_[1 - side].enclosure(v);
-  if (!other.unproven.empty()) out.unproven = other.unproven;
-  const EndEnclosure &e0 = side == 0 ? end : other, &e1 = side == 0 ? other : end;
-  const std::array<const ModelVector*, 4> data{&e0.C[0], &e0.T[0], &e1.C[0], &e1.T[0]};
-  out.Suu = ModelVector{};
-  for (std::size_t k = 0; k < 4; ++k) out.Suu = out.Suu + TaylorModel(completion_[side][k]) * *data[k];
 }
 
 SurfaceDomain OdeBlend::domain() const {

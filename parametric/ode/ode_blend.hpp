@@ -14,6 +14,7 @@
 
 #include "parametric/cross_tangent/end_condition.hpp"
 #include "parametric/ode/cardinal_basis.hpp"
+#include "parametric/ode/cardinal_ends.hpp"
 
 namespace blendwright {
 
@@ -58,8 +59,7 @@ class OdeBlend {
       UV p) const;  ///< exact to order 2 in v and 3 in u; higher entries are 0
   [[nodiscard]] SurfaceDomain domain() const;
   /// Along the ends u = 0 and u = 1 only, where the boundary data are met exactly: S = C, Su = T and, of
-  /// sixth order, Suu = D. Suu of the fourth order is left unbounded: the cardinal functions are not
-  /// enclosed.
+  /// sixth order, Suu = D; Suu of the fourth order from the data at both ends and the proven phi_k'' there.
   void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const;
   [[nodiscard]] const BlendShape& shape() const { return shape_; }
   [[nodiscard]] const EndCondition& end(int side) const { return ends_[static_cast<std::size_t>(side)]; }
@@ -82,6 +82,12 @@ class OdeBlend {
   [[nodiscard]] std::array<Series3, 3> frame(const EndSeries& e0, const EndSeries& e1) const;
   /// d^j S / du^j for j = 0..3, as series along v.
   [[nodiscard]] std::array<Series3, 4> u_derivatives(UV p) const;
+  /// The frame at a piece of v, columns.
+  [[nodiscard]] std::array<ModelVector, 3> frame(const EndEnclosure& e0, const EndEnclosure& e1) const;
+  /// Suu of the fourth order at an end.
+  [[nodiscard]] ModelVector bend(std::size_t side, const EndEnclosure& e0, const EndEnclosure& e1) const;
+  /// What (1) makes of data that go into a fixed frame and out again: its axes are orthonormal to 1e-9 only.
+  void turn(const EndEnclosure& e0, const EndEnclosure& e1, SurfaceEnclosure& out) const;
   void check_ends() const;
 
   std::array<EndCondition, 2> ends_;
@@ -89,7 +95,8 @@ class OdeBlend {
   int order_ = 4;
   std::vector<CardinalBasis> bases_;
   std::array<std::array<double, 4>, 2>
-      completion_{};  // D at end i from (C0, T0, C1, T1) when i does not ask G2
+      completion_{};                 // D at end i from (C0, T0, C1, T1) when i does not ask G2
+  std::array<EndBends, 3> bends_{};  // fourth order: phi_k'' of component x at the ends
 };
 
 /// Positions on a grid: out[(i * nv + j) * 3 + x] for u[i], v[j]; the small matrix product that a separable

@@ -24,11 +24,25 @@ struct Wave {
     const Series t = Series::variable(v), cosine = cos(t), sine = sin(t);
     return constant(a) + cosine * constant(b) + sine * constant(c);
   }
+  /// The k-th derivative, enclosed.
+  [[nodiscard]] ModelVector over(const TaylorModel& v, int k) const {
+    const TaylorModel C = cos(v), S = sin(v);
+    const std::array<TaylorModel, 2> f = k == 0   ? std::array{C, S}
+                                         : k == 1 ? std::array{-S, C}
+                                                  : std::array{-C, -S};
+    return (k == 0 ? constant_model(a) : ModelVector{}) + f[0] * constant_model(b) + f[1] * constant_model(c);
+  }
 };
 
 inline EndCondition end_of(const Wave& C, const Wave& T, const Wave& D, Continuity continuity) {
-  return {{{0.0, 2.0 * std::numbers::pi}, true}, continuity, [C, T, D](double v) {
+  return {{{0.0, 2.0 * std::numbers::pi}, true},
+          continuity,
+          [C, T, D](double v) {
             return EndSeries{C.at(v), T.at(v), D.at(v)};
+          },
+          [C, T, D](const TaylorModel& v) {
+            return EndEnclosure{
+                {C.over(v, 0), C.over(v, 1), C.over(v, 2)}, {T.over(v, 0), T.over(v, 1)}, D.over(v, 0), {}};
           }};
 }
 
@@ -45,6 +59,7 @@ inline EndCondition random_end(Rng& rng, double z, Continuity continuity) {
 inline EndCondition moved(const EndCondition& end, const Eigen::Matrix3d& R, double scale,
                           const Vec3& shift) {
   EndCondition result = end;
+  result.enclosure = {};
   result.series = [series = end.series, A = Eigen::Matrix3d(scale * R), shift](double v) {
     const auto apply = [&](const Series3& x) {
       Series3 y{};
