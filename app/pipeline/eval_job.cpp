@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "app/json/json_value.hpp"
+#include "app/pipeline/result_facts.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/base/parallel_for.hpp"
 #include "kernel/exchange/csv_text.hpp"
@@ -89,6 +90,8 @@ TriMesh sample_cloud(const SceneFile& scene, std::span<const FieldSample> sample
   const std::string length = name(scene.spec.unit);
   TriMesh cloud;
   cloud.name = scene.spec.solid;
+  cloud.facts = scene_facts(scene.spec);
+  cloud.shown = "value";
   cloud.note = "scene " + scene.name + " (" + scene.source_hash + "), solid " + scene.spec.solid;
   Column value{"value", "", 1, {}}, inside{"inside", "", 1, {}}, gradient{"gradient", "1/" + length, 3, {}},
       mean{"mean_curvature", "1/" + length, 1, {}},

@@ -6,6 +6,7 @@
 #include "app/json/object_reader.hpp"
 #include "app/pipeline/mesh_pictures.hpp"
 #include "app/pipeline/progress_part.hpp"
+#include "app/pipeline/result_facts.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/exchange/mesh_files.hpp"
 
@@ -78,20 +79,15 @@ InputError with_flags(const InputError& error, bool by_cells) {
   return InputError(std::move(problems));
 }
 
-std::string unit_of(const std::string& column, LengthUnit unit) {
-  const std::string length = name(unit);
-  if (column == "distance_error") return length;
-  if (column == "mean_curvature") return "1/" + length;
-  return column == "gaussian_curvature" ? "1/" + length + "^2" : "";
-}
-
 /// What the field does not know: names, units, where it came from.
 void describe(TriMesh& mesh, const SceneFile& scene, const MeshOptions& options) {
   mesh.name = scene.spec.solid;
   mesh.note = "scene " + scene.name + " (" + scene.source_hash + "), solid " + scene.spec.solid + ", cell " +
               number_text(options.cell) + " " + name(scene.spec.unit);
+  mesh.facts = scene_facts(scene.spec);
+  mesh.shown = "mean_curvature";
   for (Column& c : mesh.columns) {
-    c.unit = unit_of(c.name, scene.spec.unit);
+    c.unit = c.name == "distance_error" ? name(scene.spec.unit) : curvature_unit(c.name, scene.spec.unit);
     if (c.name == "member") c.labels = scene.scene.field.members();
   }
 }

@@ -4,6 +4,7 @@
 
 #include "app/json/job_reader.hpp"
 #include "app/pipeline/output_plan.hpp"
+#include "app/pipeline/result_facts.hpp"
 #include "app/pipeline/result_meshes.hpp"
 #include "app/pipeline/result_pictures.hpp"
 #include "app/pipeline/staging.hpp"
@@ -62,7 +63,13 @@ Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shap
   double size = 0.0;
   for (const BlendResult& b : result.blends) {
     m.blends.push_back(blend_mesh(b, result.job.unit));
-    for (PolyLine& line : trimline_lines(b, result.job.unit)) m.lines.push_back(std::move(line));
+    m.blends.back().facts = blend_facts(b, result.job);
+    m.blends.back().shown = "gap";
+    for (PolyLine& line : trimline_lines(b, result.job.unit)) {
+      line.facts = m.blends.back().facts;
+      line.shown = "gap";
+      m.lines.push_back(std::move(line));
+    }
     for (const Vec3& p : m.blends.back().points)
       size = std::max(size, (p - m.blends.back().points[0]).norm());
   }
@@ -72,10 +79,16 @@ Meshes make_meshes(const JobResult& result, const Assembly& assembly, const Shap
       if (blend.name == mesh.name) mesh.note = blend.note;
   for (const PrimaryPatch& patch : assembly.primaries) {
     std::vector<PolyLine> lines;
-    for (const PrimaryCut& cut : patch.cuts)
+    TriMesh primary = joined_mesh(m.all, patch.name);
+    for (const PrimaryCut& cut : patch.cuts) {
       lines.push_back(m.lines[2 * cut.blend + static_cast<std::size_t>(cut.side)]);
-    m.primaries.push_back(joined_mesh(m.all, patch.name));
-    add_seam_errors(m.primaries.back(), lines, result.job.unit);
+      const std::vector<Column>& facts = m.blends[cut.blend].facts;
+      primary.facts.insert(primary.facts.end(), facts.begin(), facts.end());
+    }
+    for (Column& c : primary.columns) c.unit = curvature_unit(c.name, result.job.unit);
+    add_seam_errors(primary, lines, result.job.unit);
+    primary.shown = "gap";
+    m.primaries.push_back(std::move(primary));
   }
   return m;
 }

@@ -29,6 +29,14 @@ void require_rows(const std::vector<Column>& columns, std::size_t points, const 
   }
 }
 
+void require_whole_rows(const std::vector<Column>& facts, const std::string& owner) {
+  for (const Column& c : facts)
+    if (c.name.empty() || c.components < 1 || c.values.size() % static_cast<std::size_t>(c.components) != 0)
+      throw InputError(owner + "facts/" + c.name, "has " + std::to_string(c.values.size()) +
+                                                      " values in rows of " + std::to_string(c.components) +
+                                                      ", must have a name and whole rows");
+}
+
 std::string owner_of(const std::string& name) { return name.empty() ? "" : name + "/"; }
 
 }  // namespace
@@ -38,6 +46,7 @@ void require_consistent(const TriMesh& mesh) {
   require_finite(mesh.points, "points", owner);
   require_finite(mesh.normals, "normals", owner);
   require_rows(mesh.columns, mesh.points.size(), owner);
+  require_whole_rows(mesh.facts, owner);
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.points.size())
     throw InputError(owner + "normals", "has " + std::to_string(mesh.normals.size()) +
                                             " vectors, must have none or " +
@@ -54,6 +63,7 @@ void require_consistent(const PolyLine& line) {
   const std::string owner = owner_of(line.name);
   require_finite(line.points, "points", owner);
   require_rows(line.columns, line.points.size(), owner);
+  require_whole_rows(line.facts, owner);
   const std::size_t least = line.closed ? 3 : 2;
   if (line.points.size() < least)
     throw InputError(owner + "points", "has " + std::to_string(line.points.size()) + ", must have at least " +

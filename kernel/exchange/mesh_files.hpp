@@ -10,12 +10,14 @@
 
 namespace blendwright {
 
-/// Points, normals and columns as 64-bit floats: nothing is rounded. A column's unit is its array's
-/// UNITS_LABEL, its labels the field data "<column> labels", the mesh's name the field data "name". Without
-/// triangles each point is a vertex cell, so that viewers show it.
+/// Points, normals and columns as 64-bit floats: nothing is rounded. Arrays are named "gap [mm]", with the
+/// unit (also their UNITS_LABEL) unless the name ends with it ("angle_deg"); facts are field data under such
+/// names, a column's labels the field data "<array> labels", the mesh's name the field data "name". `shown`
+/// is the active array, which viewers colour by. Without triangles each point is a vertex cell, so that
+/// viewers show it.
 void write_vtp(const std::filesystem::path& file, const TriMesh& mesh);
 /// One cell per line, with cell data "name" and "closed"; a closed line ends with its first point. A column
-/// that only some lines have is NaN on the others.
+/// that only some lines have is NaN on the others. Note, facts and `shown` are those of the first line.
 void write_vtp(const std::filesystem::path& file, std::span<const PolyLine> lines);
 /// Binary, all meshes one after another; facet normals from the corners by the right-hand rule (0 without an
 /// area). Coordinates are rounded to 32-bit floats. No names, point normals or columns.

@@ -3,8 +3,7 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -83,11 +82,10 @@ std::vector<vtkSmartPointer<vtkDoubleArray>> joined_columns(std::span<const Poly
     for (const Column& column : line.columns) {
       vtkSmartPointer<vtkDoubleArray> array;
       for (const auto& known : arrays)
-        if (column.name == known->GetName()) array = known;
+        if (array_name(column) == known->GetName()) array = known;
       if (!array) {
-        array = arrays.emplace_back(array_of(column.name, column.components, points));
+        array = arrays.emplace_back(array_for(column, points));
         array->Fill(std::numeric_limits<double>::quiet_NaN());
-        if (!column.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), column.unit);
       }
       if (array->GetNumberOfComponents() != column.components)
         throw InputError(line.name + "/columns/" + column.name,
@@ -99,6 +97,12 @@ std::vector<vtkSmartPointer<vtkDoubleArray>> joined_columns(std::span<const Poly
     first += line.points.size();
   }
   return arrays;
+}
+
+/// `shown` becomes the active array.
+void show(vtkPolyData& data, const std::vector<Column>& columns, const std::string& shown) {
+  for (const Column& column : columns)
+    if (column.name == shown) data.GetPointData()->SetActiveScalars(array_name(column).c_str());
 }
 
 std::vector<vtkIdType> all_points(vtkPolyData& data) {
@@ -128,7 +132,7 @@ void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
   }
 
   if (!mesh.normals.empty()) {
-    const auto normals = array_of(normals_key, 3, mesh.normals.size());
+    const auto normals = array_for({normals_key, "", 3, {}}, mesh.normals.size());
     for (std::size_t i = 0; i < mesh.normals.size(); ++i)
       normals->SetTuple(static_cast<vtkIdType>(i), mesh.normals[i].data());
     data->GetPointData()->SetNormals(normals);
@@ -137,6 +141,8 @@ void write_vtp(const std::filesystem::path& file, const TriMesh& mesh) {
     data->GetPointData()->AddArray(array_of(column));
     add_labels(*data, column);
   }
+  show(*data, mesh.columns, mesh.shown);
+  add_facts(*data, mesh.facts);
   add_text(*data, name_key, mesh.name);
   add_text(*data, note_key, mesh.note);
   write(file, *data, messages);
@@ -168,7 +174,11 @@ void write_vtp(const std::filesystem::path& file, std::span<const PolyLine> line
     data->GetPointData()->AddArray(array);
   data->GetCellData()->AddArray(names);
   data->GetCellData()->AddArray(closed);
-  if (!lines.empty()) add_text(*data, note_key, lines.front().note);
+  if (!lines.empty()) {
+    show(*data, lines.front().columns, lines.front().shown);
+    add_facts(*data, lines.front().facts);
+    add_text(*data, note_key, lines.front().note);
+  }
   write(file, *data, messages);
 }
 
@@ -199,6 +209,10 @@ TriMesh read_vtp(const std::filesystem::path& file) {
                               static_cast<std::uint32_t>(ids[2])});
   }
   mesh.columns = columns_of(*data, all_points(*data));
+  mesh.note = text_in(*data, note_key);
+  mesh.facts = columns_of(*data, *data->GetFieldData());
+  if (vtkDataArray* active = data->GetPointData()->GetScalars(); active && active->GetName())
+    mesh.shown = described_column(*data, *active).name;
   return mesh;
 }
 
@@ -234,6 +248,8 @@ std::vector<PolyLine> read_polylines(const std::filesystem::path& file) {
     if (names && cell_id < names->GetNumberOfValues()) line.name = names->GetValue(cell_id);
     for (const vtkIdType i : points) line.points.push_back(point_of(*data, i));
     line.columns = columns_of(*data, points);
+    line.note = text_in(*data, note_key);
+    line.facts = columns_of(*data, *data->GetFieldData());
   }
   return lines;
 }

@@ -61,19 +61,6 @@ void require_consistent(const BoxCells& cells) {
                                               std::to_string(c.components));
 }
 
-/// Every array of numbers.
-std::vector<Column> columns_of(vtkUnstructuredGrid& grid, vtkFieldData& arrays) {
-  std::vector<Column> columns;
-  for (int a = 0; a < arrays.GetNumberOfArrays(); ++a) {
-    vtkDataArray* array = arrays.GetArray(a);
-    if (!array || !array->GetName()) continue;
-    Column& column = columns.emplace_back(described_column(grid, *array));
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-      for (int k = 0; k < column.components; ++k) column.values.push_back(array->GetComponent(i, k));
-  }
-  return columns;
-}
-
 }  // namespace
 
 void write_vtu(const std::filesystem::path& file, const BoxCells& cells) {
@@ -84,7 +71,7 @@ void write_vtu(const std::filesystem::path& file, const BoxCells& cells) {
     grid->GetCellData()->AddArray(array_of(column));
     add_labels(*grid, column);
   }
-  for (const Column& fact : cells.facts) grid->GetFieldData()->AddArray(array_of(fact));
+  add_facts(*grid, cells.facts);
   add_text(*grid, name_key, cells.name);
   add_text(*grid, note_key, cells.note);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;

@@ -24,7 +24,9 @@ struct TriMesh {
   std::vector<Vec3> normals;  ///< empty or one per point
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Column> columns;
-  std::string note{};  ///< how it was made; kept by formats that have a place for it
+  std::string note{};           ///< how it was made; kept by formats that have a place for it
+  std::vector<Column> facts{};  ///< of the whole, any number of rows each: parameters, worst errors
+  std::string shown{};          ///< the column that viewers colour by first; empty: theirs to choose
 };
 
 struct PolyLine {
@@ -33,6 +35,8 @@ struct PolyLine {
   bool closed = false;  ///< the last point joins the first
   std::vector<Column> columns;
   std::string note{};
+  std::vector<Column> facts{};
+  std::string shown{};
 };
 
 /// Mesh of a surface's whole domain on an nu x nv grid of cells; closed directions share their seam points,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/base/text_file.hpp"
+#include "kernel/exchange/mesh_files.hpp"
 #include "tests/app/job_support.hpp"
 
 namespace blendwright {
@@ -46,6 +47,35 @@ TEST(TypedData, IsMeasuredAgainstItselfWhereThereIsNoPrimary) {
   const BlendReport moved =
       verify_blend(under_test(blend, Shifted{blend.fit.surface, Vec3(0.0, 0.0, 1e-4)}), "fitted");
   for (const SeamReport& seam : moved.seams) EXPECT_NEAR(seam.gap.worst, 1e-4, 1e-6);
+}
+
+TEST(Outputs, MeshFilesCarryUnitsParametersAndTheColumnToShow) {
+  JobSpec job = test::example_job("branch-to-main");
+  job.output.formats = {OutputFormat::vtp};
+  JobResult result = run_job(job);
+  const test::TemporaryFolder folder("mesh-facts");
+  static_cast<void>(write_outputs(result, {.folder = folder.path()}));
+  const auto fact = [](const std::vector<Column>& facts, const std::string& wanted) {
+    const auto found =
+        std::find_if(facts.begin(), facts.end(), [&](const Column& c) { return c.name == wanted; });
+    return found == facts.end() ? Column{} : *found;
+  };
+  const std::vector<PolyLine> lines = read_polylines(folder.path() / "branch-to-main.fillet.trimlines.vtp");
+  for (const char* stem : {"fillet", "main", "branch"}) {
+    SCOPED_TRACE(stem);
+    const TriMesh mesh = read_mesh(folder.path() / ("branch-to-main." + std::string(stem) + ".vtp"));
+    EXPECT_EQ(mesh.shown, "gap");
+    for (const Column& c : mesh.columns)
+      EXPECT_TRUE(!c.unit.empty() || c.name == "u" || c.name == "v") << c.name;
+    for (const std::vector<Column>& facts : {mesh.facts, lines.at(0).facts}) {
+      EXPECT_EQ(fact(facts, "fillet: tension").values, std::vector{2.0});
+      EXPECT_EQ(fact(facts, "fillet: tolerance of gap").unit, "mm");
+      const Column mode = fact(facts, "fillet: mode");
+      EXPECT_EQ(mode.labels.at(static_cast<std::size_t>(mode.values.at(0))), "chord");
+      EXPECT_EQ(fact(facts, "fillet: worst angle to").values,
+                std::vector{Radians(result.blends[0].stages.back().seams[1].angle.worst).degrees()});
+    }
+  }
 }
 
 TEST(TypedData, OffItsPrimaryIsReportedAndNotJoined) {

@@ -102,6 +102,54 @@ TEST(VtpFile, GivesBackEveryBitOfAMesh) {
       20);
 }
 
+TEST(VtpFile, NamesArraysWithTheirUnitsAndKeepsFactsAndTheShownColumn) {
+  const ScratchFolder folder;
+  Rng rng(2);
+  TriMesh mesh = noisy_torus(rng);
+  const std::size_t n = mesh.points.size();
+  mesh.columns = {{"u", "", 1, std::vector<double>(n, 0.5)},
+                  {"gap", "mm", 1, std::vector<double>(n, 1e-9)},
+                  {"angle_deg", "deg", 1, std::vector<double>(n, 2.0)}};
+  mesh.note = "chord mode";
+  mesh.facts = {{"fillet: tension", "", 1, {2.5}},
+                {"fillet: factor from", "", 2, {0.0, 1.0, 0.5, 1.2}},
+                {"fillet: worst gap from", "mm", 1, {3e-8}},
+                {"<\"fillet\" & co>: mode", "", 1, {2.0}, {"origin", "anchor", "chord"}}};
+  mesh.shown = "gap";
+  write_vtp(folder / "a.vtp", mesh);
+  const std::string text = bytes_of(folder / "a.vtp");
+  for (const char* array : {"Name=\"u\"", "Name=\"gap [mm]\"", "Name=\"angle_deg\"", "Scalars=\"gap [mm]\"",
+                            "Name=\"fillet: worst gap from [mm]\""})
+    EXPECT_NE(text.find(array), std::string::npos) << array;
+  const TriMesh back = read_mesh(folder / "a.vtp");
+  expect_same_columns(back.columns, mesh.columns);
+  expect_same_columns(back.facts, mesh.facts);
+  EXPECT_EQ(back.facts.at(3).labels, mesh.facts[3].labels);
+  EXPECT_EQ(back.shown, "gap");
+  EXPECT_EQ(back.note, "chord mode");
+
+  mesh.shown.clear();  // negative control: nothing is active unless asked for
+  write_vtp(folder / "b.vtp", mesh);
+  EXPECT_EQ(read_mesh(folder / "b.vtp").shown, "");
+
+  const std::vector<PolyLine> lines{{"ring",
+                                     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                                     true,
+                                     {{"gap", "mm", 1, {1e-9, 2e-9, 3e-9}}},
+                                     "note",
+                                     mesh.facts,
+                                     "gap"}};
+  write_vtp(folder / "lines.vtp", lines);
+  EXPECT_NE(bytes_of(folder / "lines.vtp").find("Scalars=\"gap [mm]\""), std::string::npos);
+  const std::vector<PolyLine> read = read_polylines(folder / "lines.vtp");
+  expect_same_columns(read.at(0).facts, mesh.facts);
+  EXPECT_EQ(read.at(0).note, "note");
+
+  mesh.facts[1].values.pop_back();
+  EXPECT_THROW(write_vtp(folder / "c.vtp", mesh), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.vtp"));
+}
+
 TEST(VtpFile, IsTheSameBytesTwice) {
   const ScratchFolder folder;
   Rng rng(1);
