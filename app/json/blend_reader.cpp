@@ -50,7 +50,7 @@ std::optional<LiteralEnd> read_literal(ObjectReader& side, BlendSideEntry& entry
   end.C = side.formulas("C", 3, {"v"}).value_or(std::vector<std::string>());
   end.T = side.formulas("T", 3, {"v"}).value_or(std::vector<std::string>());
   end.D = side.formulas("D", 3, {"v"}).value_or(std::vector<std::string>());
-  for (const char* key : {"magnitude", "tangent_angle_deg", "keep"})
+  for (const char* key : {"magnitude", "tangent_angle_deg", "tangent_angle_rad", "keep"})
     side.exclude(key, "C", "literal boundary data say where the tangent points and how long it is");
   if (side.has("D") && !side.has("continuity")) entry.side.continuity = Continuity::G2;
   if (!side.has("D") && entry.side.continuity == Continuity::G2)
@@ -88,6 +88,8 @@ BlendSideEntry read_side(const JsonValue& value, const std::string& where, const
   if (const JsonValue* magnitude = side.find("magnitude"))
     read_magnitude(*magnitude, side.at("magnitude"), entry.side, reading);
   if (const auto angle = side.number("tangent_angle_deg")) entry.side.tangent_angle = degrees(*angle);
+  if (const auto angle = side.number("tangent_angle_rad")) entry.side.tangent_angle = Radians(*angle);
+  side.exclude("tangent_angle_rad", "tangent_angle_deg", "both turn the cross tangent");
   entry.side.keep = side.choice("keep", keep_choices()).value_or(SideSpec::Keep::automatic);
   read_primary_and_trimline(side, entry, primaries, reading);
   entry.literal = read_literal(side, entry);
@@ -99,12 +101,40 @@ BlendSideEntry read_side(const JsonValue& value, const std::string& where, const
   return entry;
 }
 
+std::vector<LawPoint> read_map(const JsonValue& value, const std::string& where, Reading& reading) {
+  if (!value.items() || value.items()->empty()) {
+    reading.problem(where, described(value) + ", must be a list of [t, fraction], such as [[0.5, 0.4]]");
+    return {};
+  }
+  std::vector<LawPoint> map;
+  for (std::size_t i = 0; i < value.items()->size(); ++i) {
+    const std::string at = where + "/" + std::to_string(i);
+    const auto pair = reading.numbers((*value.items())[i], at, 2);
+    if (!pair) continue;
+    const LawPoint p{(*pair)[0], (*pair)[1]};
+    if (!(p.t >= 0.0 && p.t <= 1.0))
+      reading.problem(at + "/0", "is " + number_text(p.t) + ", must be in [0, 1]");
+    if (!map.empty() && !(p.t > map.back().t && p.value > map.back().value))
+      reading.problem(at, "must be above the point before in both numbers: the map must increase");
+    map.push_back(p);
+  }
+  return map;
+}
+
 CorrespondenceSpec read_correspondence(const JsonValue& value, const std::string& where, Reading& reading) {
   ObjectReader object(value, where, job_object("correspondence"), reading);
   CorrespondenceSpec spec;
   spec.rule = object.choice("rule", correspondence_choices()).value_or(CorrespondenceRule::arc_length);
   spec.reverse = object.boolean("reverse");
   spec.seam_offset = object.number("seam_offset");
+  const bool mapped = spec.rule == CorrespondenceRule::mapped;
+  if (const JsonValue* map = object.find("map")) {
+    spec.map = read_map(*map, object.at("map"), reading);
+    if (!mapped)
+      object.problem("map", "has no effect; remove it or set " + object.at("rule") + " to \"mapped\"");
+  } else if (mapped) {
+    object.problem("map", "is missing; rule \"mapped\" needs it, such as [[0.5, 0.4]]");
+  }
   return spec;
 }
 

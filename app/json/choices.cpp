@@ -41,7 +41,8 @@ constexpr Choice<SideSpec::Keep> keeps[] = {
 constexpr Choice<CorrespondenceRule> correspondences[] = {
     {"arc_length", CorrespondenceRule::arc_length, "equal fractions of arc length (default)"},
     {"as_given", CorrespondenceRule::as_given, "equal fractions of each trimline's own parameter"},
-    {"minimal_twist", CorrespondenceRule::minimal_twist, "the map that turns the connecting lines least"}};
+    {"minimal_twist", CorrespondenceRule::minimal_twist, "the map that turns the connecting lines least"},
+    {"mapped", CorrespondenceRule::mapped, "the map of fractions of arc length that \"map\" gives"}};
 
 constexpr Choice<BlendMode> modes[] = {
     {"chord", BlendMode::chord,

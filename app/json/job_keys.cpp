@@ -89,13 +89,15 @@ ObjectInfo trimline_object(const Choice<TrimlineSpec::Kind>& kind) {
     case isoline:
       for (const PrimaryInfo& row : primaries_table())
         for (std::size_t i = 0; i < 2; ++i)
-          if (const std::string key = parameter_key(row, i); !object.find(key))
-            object.keys.push_back({key, "number", "value of this parameter of the primary"});
+          for (const std::string& key : {parameter_key(row, i), parameter_key(row, i, "_rad")})
+            if (!object.find(key))
+              object.keys.push_back({key, "number", "value of this parameter of the primary"});
       for (const char* key : {"u", "v"})
         if (!object.find(key))
           object.keys.push_back({key, "number", "value of this parameter of the primary"});
       add(object.keys, {{"range", "range", "range of the other parameter; default: all of it"},
-                        {"range_deg", "range", "range of the other parameter when it is an angle"}});
+                        {"range_deg", "range", "range of the other parameter when it is an angle"},
+                        {"range_rad", "range", "the same in radians"}});
       break;
     case parameters:
       add(object.keys, curve_keys("formulas2", "points2", "u and v of the primary"));
@@ -121,6 +123,8 @@ Keys side_keys() {
           {"magnitude", "magnitude", "length of the cross tangent"},
           {"tangent_angle_deg", "number", "turns the cross tangent within the tangent plane", false, -60.0,
            true, 60.0},
+          {"tangent_angle_rad", "number", "the same in radians", false, -degrees(60.0).value, true,
+           degrees(60.0).value},
           {"keep", "keep", "which part of the primary stays"},
           {"C", "formulas3", "literal boundary data: position as formulas of v"},
           {"T", "formulas3", "literal boundary data: cross tangent as formulas of v"},
@@ -176,7 +180,10 @@ std::vector<ObjectInfo> plain_objects() {
         {"reverse", "boolean",
          "true: the second trimline runs backwards; default: decided from the geometry"},
         {"seam_offset", "number",
-         "closed trimlines: where the second one starts, as a fraction of its length; default: nearest"}}},
+         "closed trimlines: where the second one starts, as a fraction of its length; default: nearest"},
+        {"map", "pairs",
+         "rule mapped: [[t, fraction of the second trimline that is joined to the fraction t of the first], "
+         "...]"}}},
       {"tolerance",
        "What counts as continuous",
        {positive("position", "largest gap, model units; default 1e-6"),
@@ -235,8 +242,8 @@ bool closed_by_direction(const PrimaryInfo& row) {
   return row.variables.size() == 2 || (row.texts.empty() && row.takes_points);
 }
 
-std::string parameter_key(const PrimaryInfo& row, std::size_t direction) {
-  return std::string(row.parameters[direction]) + (row.angular[direction] ? "_deg" : "");
+std::string parameter_key(const PrimaryInfo& row, std::size_t direction, const char* unit) {
+  return std::string(row.parameters[direction]) + (row.angular[direction] ? unit : "");
 }
 
 }  // namespace blendwright

@@ -40,7 +40,8 @@ inline constexpr std::string_view step_face_kind = "step_face";
 /// Whether the user says of each direction if it is periodic: "closed": [u, v].
 [[nodiscard]] bool closed_by_direction(const PrimaryInfo& row);
 
-/// The job key of parameter u (0) or v (1): its name in the row, with _deg when it is an angle.
-[[nodiscard]] std::string parameter_key(const PrimaryInfo& row, std::size_t direction);
+/// The job key of parameter u (0) or v (1): its name in the row, with the unit when it is an angle.
+[[nodiscard]] std::string parameter_key(const PrimaryInfo& row, std::size_t direction,
+                                        const char* unit = "_deg");
 
 }  // namespace blendwright

@@ -24,6 +24,7 @@ void add_job_types(Value& definitions) {
       {"knots", exactly(list_of(number), 2)},
       {"closed_pair", exactly(typed("boolean"), 2)},
       {"law", either({number, list_of(exactly(number, 2), 2)})},
+      {"pairs", list_of(exactly(number, 2), 1)},
       {"axes", exactly(exactly(number, 3), 3)},
       {"frame_or_axes", either({reference("frame"), reference("frame_axes")})},
       {"formats", list_of(reference("format"), 1)},

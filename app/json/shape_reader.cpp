@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/json/job_parts.hpp"
 #include "kernel/base/number_text.hpp"
@@ -61,13 +62,14 @@ Eigen::Matrix3d read_axes(const JsonValue& value, const std::string& where, Read
     return axes;
   }
   for (Eigen::Index i = 0; i < 3; ++i) axes.col(i) = (*vectors)[static_cast<std::size_t>(i)];
-  // A person types six digits; the directions are then made exact.
+  // A person types six digits; the directions are then made exact. Exact ones stay as they are.
   const double error = (axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-5) || axes.col(0).cross(axes.col(1)).dot(axes.col(2)) < 0.0) {
     object.problem("fixed", "must be three perpendicular unit vectors, right-handed (they are off by " +
                                 number_text(error, 2) + ")");
     return axes;
   }
+  if (error <= 8.0 * std::numeric_limits<double>::epsilon()) return axes;
   axes.col(0).normalize();
   axes.col(1) = (axes.col(1) - axes.col(0).dot(axes.col(1)) * axes.col(0)).normalized();
   axes.col(2) = axes.col(0).cross(axes.col(1));

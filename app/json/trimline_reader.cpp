@@ -8,21 +8,25 @@ namespace {
 /// The two parameters of a primary as a trimline names them; STEP faces have plain u and v.
 struct Parameters {
   std::array<std::string, 2> keys{"u", "v"};
+  std::array<std::string, 2> in_radians{"u", "v"};  ///< other keys for those that are angles
   std::array<bool, 2> angular{false, false};
 };
 
 Parameters parameters_of(const std::string& kind) {
   const PrimaryInfo* row = find_primary(kind);
   if (!row) return {};
-  return {{parameter_key(*row, 0), parameter_key(*row, 1)}, row->angular};
+  return {{parameter_key(*row, 0), parameter_key(*row, 1)},
+          {parameter_key(*row, 0, "_rad"), parameter_key(*row, 1, "_rad")},
+          row->angular};
 }
 
 /// Reports a key that names a parameter of some primary, but not of this one; whether there is one.
 bool refuse_foreign_keys(ObjectReader& object, const std::string& kind, const Parameters& own) {
   bool foreign = false;
   for (const KeyInfo& k : job_object("trimline isoline").keys) {
-    if (k.name == "kind" || k.name == "range" || k.name == "range_deg") continue;
-    if (k.name == own.keys[0] || k.name == own.keys[1] || !object.has(k.name)) continue;
+    if (k.name == "kind" || k.name.rfind("range", 0) == 0 || !object.has(k.name)) continue;
+    if (k.name == own.keys[0] || k.name == own.keys[1]) continue;
+    if (k.name == own.in_radians[0] || k.name == own.in_radians[1]) continue;
     foreign = true;
     object.problem(k.name, "a " + kind + " has no parameter of this name; must be \"" + own.keys[0] +
                                "\" or \"" + own.keys[1] + "\"");
@@ -30,26 +34,41 @@ bool refuse_foreign_keys(ObjectReader& object, const std::string& kind, const Pa
   return foreign;
 }
 
+/// `along`: the parameter that runs along the line.
+void read_isoline_range(ObjectReader& object, const Parameters& own, std::size_t along, TrimlineSpec& spec) {
+  const bool angle = own.angular[along];
+  const char* key = angle ? "range_deg" : "range";
+  const std::vector<const char*> others =
+      angle ? std::vector{"range"} : std::vector{"range_deg", "range_rad"};
+  for (const char* wrong : others)
+    if (object.has(wrong))
+      object.problem(wrong, "the range is along \"" + own.keys[along] + "\"; must be \"" + key + "\"");
+  spec.range = object.range(key);
+  if (!angle) return;
+  object.exclude("range_rad", "range_deg", "both give the same range");
+  if (spec.range) spec.range = Interval{degrees(spec.range->lo).value, degrees(spec.range->hi).value};
+  if (const auto range = object.range("range_rad")) spec.range = range;
+}
+
 void read_isoline(ObjectReader& object, const std::string& kind, TrimlineSpec& spec) {
   const Parameters own = parameters_of(kind);
   const bool foreign = refuse_foreign_keys(object, kind, own);
-  object.exclude(own.keys[1], own.keys[0], "an isoline fixes one parameter");
-  if (!foreign && !object.has(own.keys[0]) && !object.has(own.keys[1]))
+  const auto has = [&](std::size_t i) { return object.has(own.keys[i]) || object.has(own.in_radians[i]); };
+  const auto given = [&](std::size_t i) {
+    return object.has(own.in_radians[i]) ? own.in_radians[i] : own.keys[i];
+  };
+  if (has(0) && has(1)) object.exclude(given(1), given(0), "an isoline fixes one parameter");
+  if (!foreign && !has(0) && !has(1))
     object.problem(own.keys[0],
                    "is missing; an isoline must give \"" + own.keys[0] + "\" or \"" + own.keys[1] + "\"");
-  const std::size_t fixed = object.has(own.keys[1]) ? 1 : 0;
+  const std::size_t fixed = has(1) ? 1 : 0;
   spec.direction = fixed == 0 ? IsoDirection::constant_u : IsoDirection::constant_v;
-  const double value = object.number(own.keys[fixed]).value_or(0.0);
-  spec.value = own.angular[fixed] ? degrees(value).value : value;
-
-  const bool angle = own.angular[1 - fixed];
-  const char* key = angle ? "range_deg" : "range";
-  const char* wrong = angle ? "range" : "range_deg";
-  if (object.has(wrong))
-    object.problem(wrong, "the range is along \"" + own.keys[1 - fixed] + "\"; must be \"" + key + "\"");
-  spec.range = object.range(key);
-  if (spec.range && angle)
-    spec.range = Interval{degrees(spec.range->lo).value, degrees(spec.range->hi).value};
+  spec.value = object.number(own.keys[fixed]).value_or(0.0);
+  if (own.angular[fixed]) {
+    object.exclude(own.in_radians[fixed], own.keys[fixed], "both give the same angle");
+    spec.value = object.number(own.in_radians[fixed]).value_or(degrees(spec.value).value);
+  }
+  read_isoline_range(object, own, 1 - fixed, spec);
 }
 
 /// `periods`: of the curve's coordinates, 0 or none where they have none.
