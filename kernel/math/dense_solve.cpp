@@ -144,6 +144,20 @@ LeastSquares least_squares(const Eigen::Ref<const Eigen::MatrixXd>& A,
   return result;
 }
 
+SingularValues singular_values(const Eigen::Ref<const Eigen::MatrixXd>& A) {
+  const Jacobi j = orthogonalised(A);
+  const Eigen::VectorXd sigma = j.W.colwise().norm();
+  std::vector<Index> order(static_cast<std::size_t>(A.cols()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return sigma[a] > sigma[b]; });
+  SingularValues s{Eigen::VectorXd(A.cols()), Eigen::MatrixXd(A.cols(), A.cols())};
+  for (Index i = 0; i < A.cols(); ++i) {
+    s.values[i] = sigma[order[static_cast<std::size_t>(i)]];
+    s.V.col(i) = j.V.col(order[static_cast<std::size_t>(i)]);
+  }
+  return s;
+}
+
 Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& A,
                       const Eigen::Ref<const Eigen::MatrixXd>& b) {
   const Index n = A.rows();

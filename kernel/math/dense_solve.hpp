@@ -14,6 +14,13 @@ struct LeastSquares {
 [[nodiscard]] LeastSquares least_squares(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                          const Eigen::Ref<const Eigen::MatrixXd>& b);
 
+/// A = U diag(values) V^T, values in descending order; V: n x n. One-sided Jacobi as above.
+struct SingularValues {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd V;
+};
+[[nodiscard]] SingularValues singular_values(const Eigen::Ref<const Eigen::MatrixXd>& A);
+
 /// Solves A x = b by LU with row scaling and partial pivoting; throws GeometryError when A is singular to
 /// working precision: a pivot below n eps of its row.
 [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& A,
