@@ -58,6 +58,36 @@ Vec3 direction_argument(const std::string& text) {
   return Vec3(x[0], x[1], x[2]) / length;
 }
 
+std::array<int, 2> size_argument(const std::string& text) {
+  std::array<int, 2> size{};
+  const char* end = text.data() + text.size();
+  const auto [middle, first] = std::from_chars(text.data(), end, size[0]);
+  const bool cross = first == std::errc() && middle != end && (*middle == 'x' || *middle == 'X');
+  const auto [last, second] = std::from_chars(cross ? middle + 1 : end, end, size[1]);
+  constexpr int least = 64, most = 4096;
+  const auto wrong = [](int pixels) { return pixels < least || pixels > most; };
+  if (!cross || second != std::errc() || last != end || wrong(size[0]) || wrong(size[1]))
+    throw InputError("", "is " + text + ", must be width and height in pixels as in 1280x960, each from " +
+                             std::to_string(least) + " to " + std::to_string(most));
+  return size;
+}
+
+std::pair<int, double> plane_argument(const std::string& text) {
+  const std::size_t axis = text.empty() ? std::string::npos : std::string("xyz").find(text[0]);
+  const std::vector<double> at =
+      text.size() > 2 && text[1] == '=' ? numbers_in(text.substr(2)) : std::vector<double>();
+  if (axis == std::string::npos || at.size() != 1)
+    throw InputError("", "is " + text + ", must be an axis and a place as in z=1.5");
+  return {static_cast<int>(axis), at[0]};
+}
+
+Interval range_argument(const std::string& text) {
+  const std::vector<double> x = numbers_in(text);
+  if (x.size() != 2) throw InputError("", "is " + text + ", must be two numbers lo,hi");
+  if (!(x[0] < x[1])) throw InputError("", "is " + text + ", must have the lower number first");
+  return {x[0], x[1]};
+}
+
 std::size_t memory_argument(const std::string& text) {
   double value = 0.0;
   const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);

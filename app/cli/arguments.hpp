@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "kernel/field/range.hpp"
 #include "verify/surface/fairness.hpp"
@@ -16,6 +17,12 @@ namespace blendwright {
 [[nodiscard]] std::array<double, 2> shell_argument(const std::string& text);
 /// "x,y,z", not all 0: a unit vector. Throws InputError.
 [[nodiscard]] Vec3 direction_argument(const std::string& text);
+/// "1280x960": width and height in pixels. Throws InputError.
+[[nodiscard]] std::array<int, 2> size_argument(const std::string& text);
+/// "z=1.5": the axis (0, 1, 2) and the place. Throws InputError.
+[[nodiscard]] std::pair<int, double> plane_argument(const std::string& text);
+/// "lo,hi" with lo < hi. Throws InputError.
+[[nodiscard]] Interval range_argument(const std::string& text);
 /// Bytes: a number, with K, M or G for 1024, 1024^2, 1024^3. Throws InputError.
 [[nodiscard]] std::size_t memory_argument(const std::string& text);
 

@@ -20,6 +20,8 @@ std::span<const VerbInfo> verbs_table() {
        "blendwright relate part.json box.json"},
       {"collide", "say whether bodies touch, as they stand or along a motion",
        "blendwright collide arm.json part.json --motion path.csv -o contacts.csv"},
+      {"picture", "draw a job, a scene, a STEP file or a mesh, coloured by what is to be judged",
+       "blendwright picture joint.json -o joint.png --show zebra"},
       {"inspect", "list the faces and edges of a STEP file, with selectors to paste into a job",
        "blendwright inspect part.step"},
       {"list", "list what a job or a scene may choose from", "blendwright list primaries"},
@@ -82,6 +84,7 @@ int run(int argc, char** argv) {
   add_offset(app, program);
   add_relate(app, program);
   add_collide(app, program);
+  add_picture(app, program);
   add_inspect(app, program);
   add_list(app, program);
   add_schema(app, program);

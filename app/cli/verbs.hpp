@@ -101,6 +101,31 @@ struct CollideCommand {
 /// Says whether bodies touch, as they stand or along a motion.
 [[nodiscard]] int collide(const CollideCommand& command, const Console& console);
 
+struct PictureCommand {
+  std::string input, output, show;  ///< input "-": standard input; show empty: what the input is about
+  std::string to, solid, plane, range, pull, light, from, box;
+  std::string curvature = "mean", size = "1280x960", background = "white";
+  std::vector<std::string> views;
+  double stripes = 16.0;
+  int cells = 160, comb_lines = 24;
+  bool log = false, force = false, json = false, times = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Draws a picture of a job, a scene, a STEP file or a mesh.
+[[nodiscard]] int picture(const PictureCommand& command, const Console& console);
+/// What --show may be.
+[[nodiscard]] std::vector<std::string> picture_words();
+
+struct ViewCommand {
+  std::vector<std::string> files;  ///< one, or two side by side
+  std::string save, script;        ///< empty: beside the file; a person's events
+  int width = 1280, height = 960;
+  bool force = false, dark = false, times = false;
+  std::optional<int> threads;
+};
+/// Shows files in a window and lets jobs be shaped by hand.
+[[nodiscard]] int view(const ViewCommand& command, const Console& console);
+
 struct InspectCommand {
   std::string part;
   bool json = false;

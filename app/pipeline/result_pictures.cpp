@@ -2,48 +2,16 @@
 
 #include <algorithm>
 
+#include "app/pipeline/picture_views.hpp"
 #include "kernel/base/number_text.hpp"
 
 namespace blendwright {
 namespace {
 
-struct Weighted {
-  double area = 0.0;
-  Vec3 centre = Vec3::Zero();
-};
-
-Weighted centre_of(const TriMesh& mesh) {
-  Weighted w;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-    const double area = 0.5 * (b - a).cross(c - a).norm();
-    w.area += area;
-    w.centre += area * (a + b + c) / 3.0;
-  }
-  if (w.area > 0.0) w.centre /= w.area;
-  return w;
-}
-
-/// From above, unless one primary is much larger than all others and lies above the blends: it would hide
-/// them.
-std::optional<Vec3> view_of(const std::vector<TriMesh>& blends, const std::vector<TriMesh>& primaries) {
-  Weighted largest, second, blend;
-  for (const TriMesh& mesh : primaries) {
-    const Weighted w = centre_of(mesh);
-    if (w.area > largest.area) {
-      second = largest;
-      largest = w;
-    } else if (w.area > second.area) {
-      second = w;
-    }
-  }
-  for (const TriMesh& mesh : blends) {
-    const Weighted w = centre_of(mesh);
-    if (w.area > blend.area) blend = w;
-  }
-  const bool hides = largest.area > 4.0 * second.area && largest.centre.z() > blend.centre.z();
-  if (!hides) return std::nullopt;
-  return Vec3(1.0, -1.2, -0.8);
+std::vector<const TriMesh*> addresses(const std::vector<TriMesh>& meshes) {
+  std::vector<const TriMesh*> all;
+  for (const TriMesh& mesh : meshes) all.push_back(&mesh);
+  return all;
 }
 
 }  // namespace
@@ -65,7 +33,7 @@ Picture error_picture(const JobResult& result, const std::vector<TriMesh>& blend
   picture.column = "gap";
   picture.bar_title = "gap (" + unit + ")";
   picture.logarithmic = true;
-  picture.view = view_of(blends, primaries);
+  picture.view = view_of_blends(addresses(blends), addresses(primaries));
   for (const TriMesh& mesh : primaries) picture.meshes.push_back({mesh, {0.72, 0.75, 0.80}, 1.0, false});
   for (const TriMesh& mesh : blends) picture.meshes.push_back({mesh, {0.90, 0.55, 0.15}, 1.0, true});
   picture.lines = lines;

@@ -70,8 +70,8 @@ unsigned char byte_of(double x) {
 
 }  // namespace
 
-Canvas::Canvas() {
-  renderer_->SetBackground(1.0, 1.0, 1.0);
+Canvas::Canvas(const Colour& background) {
+  renderer_->SetBackground(background.r, background.g, background.b);
   renderer_->InteractiveOff();
 }
 
@@ -108,6 +108,7 @@ void Canvas::segment(const Vec2& a, const Vec2& b, double width, const Colour& c
 }
 
 void Canvas::line(const std::vector<Vec2>& points, const Colour& colour, double width, double dash) {
+  double phase = 0.0;  // how far the line is into a dash and its gap
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     if (dash == 0.0 && width > 1.0) disc(points[i], 0.5 * width, colour);
@@ -118,8 +119,11 @@ void Canvas::line(const std::vector<Vec2>& points, const Colour& colour, double 
       segment(a, points[i], width, colour);
       continue;
     }
-    for (double s = 0.0; s < length; s += 2.0 * dash)
-      segment(a + step * (s / length), a + step * (std::min(s + dash, length) / length), width, colour);
+    for (double s = -phase; s < length; s += 2.0 * dash) {
+      const double from = std::max(s, 0.0), to = std::min(s + dash, length);
+      if (from < to) segment(a + step * (from / length), a + step * (to / length), width, colour);
+    }
+    phase = std::fmod(phase + length, 2.0 * dash);
   }
 }
 

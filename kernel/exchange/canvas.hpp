@@ -35,7 +35,7 @@ struct PixelBox {
 
 class Canvas {
  public:
-  Canvas();
+  explicit Canvas(const Colour& background = {1.0, 1.0, 1.0});
   void fill(const PixelBox& box, const Colour& colour);
   void frame(const PixelBox& box, const Colour& colour, double width);
   /// Round joints and ends; `dash` > 0: dashes and gaps of that length. A point with a NaN interrupts the

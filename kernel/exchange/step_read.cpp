@@ -1,4 +1,5 @@
 // Reading back what was written: faces in the order of the file, with names, colours and layers.
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Interface_Static.hxx>
@@ -11,6 +12,7 @@
 #include <TDataStd_Name.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
@@ -22,6 +24,7 @@
 #include "kernel/brep/occt_surface.hpp"
 #include "kernel/exchange/step_document.hpp"
 #include "kernel/exchange/step_file.hpp"
+#include "kernel/exchange/step_shape.hpp"
 
 namespace blendwright {
 namespace {
@@ -106,41 +109,66 @@ void read_statements(const std::filesystem::path& file, StepContent& content) {
   content.unit = length_unit(text);
 }
 
-}  // namespace
-
-StepContent read_step(const std::filesystem::path& file, LengthUnit unit) {
+void require_file(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw IoError(file.string() + ": is not a file that can be read; give the path of a STEP file");
+}
+
+/// The first part of the file, or all of them as one shape, with what the document says of the faces.
+std::shared_ptr<Shape::Impl> read_document(const std::filesystem::path& file, LengthUnit unit, bool all) {
+  auto shape = std::make_shared<Shape::Impl>();
+  const detail::ExchangeSession session(unit);
+  detail::guarded<IoError>(file.string(), [&] {
+    STEPCAFControl_Controller::Init();  // the names of faces are a setting that exists only after this
+    Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+    const detail::StepDocument document;
+    XCAFDoc_DocumentTool::SetLengthUnit(document.document(), detail::millimetres(unit) / 1000.0);
+    STEPCAFControl_Reader reader;
+    reader.SetColorMode(true);
+    reader.SetNameMode(true);
+    reader.SetLayerMode(true);
+    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
+      throw IoError(file.string() + ": is not a STEP file (ISO 10303-21) that can be read");
+    handle<TDocStd_Document> target = document.document();
+    if (!reader.Transfer(target)) throw IoError(file.string() + ": contains no shape");
+    const Labels labels(document.document());
+    if (labels.parts().IsEmpty()) throw IoError(file.string() + ": contains no shape");
+    TopoDS_Compound compound;
+    const BRep_Builder builder;
+    builder.MakeCompound(compound);
+    for (const TDF_Label& part : labels.parts()) {
+      const TopoDS_Shape one = XCAFDoc_ShapeTool::GetShape(part);
+      for (TopExp_Explorer f(one, TopAbs_FACE); f.More(); f.Next())
+        shape->faces.push_back(labels.describe(part, TopoDS::Face(f.Current())));
+      builder.Add(compound, one);
+      shape->shape = one;
+      if (!all) return;
+    }
+    if (labels.parts().Size() > 1) shape->shape = compound;
+  });
+  return shape;
+}
+
+}  // namespace
+
+StepContent read_step(const std::filesystem::path& file, LengthUnit unit) {
+  require_file(file);
   StepContent content;
   read_statements(file, content);
-  auto shape = std::make_shared<Shape::Impl>();
-  {
-    const detail::ExchangeSession session(unit);
-    detail::guarded<IoError>(file.string(), [&] {
-      STEPCAFControl_Controller::Init();  // the names of faces are a setting that exists only after this
-      Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
-      const detail::StepDocument document;
-      XCAFDoc_DocumentTool::SetLengthUnit(document.document(), detail::millimetres(unit) / 1000.0);
-      STEPCAFControl_Reader reader;
-      reader.SetColorMode(true);
-      reader.SetNameMode(true);
-      reader.SetLayerMode(true);
-      if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
-        throw IoError(file.string() + ": is not a STEP file (ISO 10303-21) that can be read");
-      handle<TDocStd_Document> target = document.document();
-      if (!reader.Transfer(target)) throw IoError(file.string() + ": contains no shape");
-      const Labels labels(document.document());
-      if (labels.parts().IsEmpty()) throw IoError(file.string() + ": contains no shape");
-      const TDF_Label& part = labels.parts().First();
-      shape->shape = XCAFDoc_ShapeTool::GetShape(part);
-      for (TopExp_Explorer f(shape->shape, TopAbs_FACE); f.More(); f.Next())
-        shape->faces.push_back(labels.describe(part, TopoDS::Face(f.Current())));
-    });
-  }
+  const std::shared_ptr<const Shape::Impl> shape = read_document(file, unit, false);
   for (const ShapeFace& f : shape->faces) content.faces.push_back(step_face(f));
   content.check = check_shape(Shape(shape));
   return content;
+}
+
+StepShape read_step_shape(const std::filesystem::path& file, LengthUnit unit) {
+  require_file(file);
+  const std::shared_ptr<const Shape::Impl> shape = read_document(file, unit, true);
+  if (shape->faces.empty()) throw IoError(file.string() + ": contains no face");
+  StepShape result{Shape(shape), {}};
+  for (const ShapeFace& f : shape->faces) result.surfaces.push_back(step_face(f).surface);
+  return result;
 }
 
 }  // namespace blendwright
