@@ -82,11 +82,12 @@ std::vector<SplinePiece> spline_pieces(const BSplineBasis& basis, const TaylorMo
   if (!basis.periodic()) return pieces;
   // What reaches over the seam lies on the spans of the turn before or after.
   const TaylorModel period(Bounds(domain.hi) - Bounds(domain.lo));
-  if (range.lo < domain.lo) {
+  const double rounding = 1e-14 * domain.length();
+  if (range.lo < domain.lo - rounding) {
     if (range.lo < breaks[breaks.size() - 2] - domain.length()) return {};
     pieces.push_back(piece(basis, breaks.size() - 2, inside + period));
   }
-  if (range.hi > domain.hi) {
+  if (range.hi > domain.hi + rounding) {
     if (range.hi > breaks[1] + domain.length()) return {};
     pieces.push_back(piece(basis, 0, inside - period));
   }
@@ -119,17 +120,26 @@ namespace {
 /// Derivatives (k, l), k + l <= 2, in the order of SurfaceEnclosure.
 constexpr std::array<std::array<std::size_t, 2>, 6> orders{{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 
+/// Derivatives of the functions sum to 0, so that any point may be taken off the control points: with the one
+/// at the nearer end of the span, a row that stops there stops in rounded arithmetic too.
 std::array<ModelVector, 6> patch(const BSplineSurface& s, const SplinePiece& pu, const SplinePiece& pv) {
   std::array<ModelVector, 6> out;
+  const std::vector<TaylorModel>& N = pv.value[0];
+  const bool near_start = N.front().range().magnitude() >= N.back().range().magnitude();
+  const int reference = s.basis_v().index(pv.first + (near_start ? 0 : static_cast<int>(N.size()) - 1));
   for (std::size_t i = 0; i < pu.value[0].size(); ++i) {
     if (pu.value[0][i].is_zero() && pu.value[1][i].is_zero() && pu.value[2][i].is_zero()) continue;
     std::array<ModelVector, 3> row;  // derivatives by v of the i-th row curve
     const int at = s.basis_u().index(pu.first + static_cast<int>(i));
-    for (std::size_t j = 0; j < pv.value[0].size(); ++j) {
+    const Vec3& R = s.control(at, reference);
+    for (std::size_t j = 0; j < N.size(); ++j) {
       const Vec3& P = s.control(at, s.basis_v().index(pv.first + static_cast<int>(j)));
-      for (std::size_t l = 0; l < 3; ++l)
-        for (std::size_t d = 0; d < 3; ++d)
-          row[l][d] = row[l][d] + P[static_cast<Eigen::Index>(d)] * pv.value[l][j];
+      for (std::size_t d = 0; d < 3; ++d) {
+        const auto x = static_cast<Eigen::Index>(d);
+        const TaylorModel apart = TaylorModel(P[x]) - TaylorModel(R[x]);
+        row[0][d] = row[0][d] + P[x] * N[j];
+        for (std::size_t l = 1; l < 3; ++l) row[l][d] = row[l][d] + apart * pv.value[l][j];
+      }
     }
     for (std::size_t n = 0; n < orders.size(); ++n)
       out[n] = out[n] + pu.value[orders[n][0]][i] * row[orders[n][1]];

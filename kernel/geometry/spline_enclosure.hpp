@@ -21,7 +21,8 @@ struct SplinePiece {
 };
 
 /// The pieces over the range of t; empty when t leaves an open domain by more than 1e-9 of its length or
-/// reaches over more than four spans.
+/// reaches over more than four spans. What reaches over the seam of a periodic basis by less than 1e-14 of
+/// the period, a rounding of the end of a piece, belongs to the continuation of the piece.
 [[nodiscard]] std::vector<SplinePiece> spline_pieces(const BSplineBasis& basis, const TaylorModel& t);
 
 }  // namespace blendwright

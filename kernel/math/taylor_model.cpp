@@ -68,6 +68,23 @@ TaylorModel TaylorModel::with_radius(double r) const {
   return m;
 }
 
+TaylorModel TaylorModel::mean_from(const Bounds& x0) const {
+  if (!finite()) return unknown();
+  TaylorModel m;
+  m.degree_ = degree_;
+  double rounding = 0.0;
+  for (std::size_t j = 0; j <= static_cast<std::size_t>(degree_); ++j) {
+    Bounds sum;
+    for (std::size_t k = static_cast<std::size_t>(degree_) + 1; k-- > j;)
+      sum = sum * x0 + Bounds(c_[k]) / Bounds(static_cast<double>(k + 1));
+    m.c_[j] = sum.middle();
+    rounding += sum.radius();
+  }
+  m.radius_ = bound(radius_ + rounding);
+  m.trim();
+  return m;
+}
+
 TaylorModel TaylorModel::hull(const TaylorModel& a, const TaylorModel& b) {
   if (!a.finite() || !b.finite()) return unknown();
   const double apart = (b.with_radius(0.0) - a.with_radius(0.0)).range().magnitude();

@@ -45,6 +45,11 @@ class TaylorModel {
   /// A model that contains both.
   [[nodiscard]] static TaylorModel hull(const TaylorModel& a, const TaylorModel& b);
 
+  /// The mean of f between x0 and x, x0 in [-1, 1]:
+  ///   1/(x - x0) int_x0^x f = sum_k c[k]/(k+1) (x^k + x^(k-1) x0 + ... + x0^k) + [-radius, radius] (3)
+  /// A model that vanishes at x0 is (x - x0) times the mean of its derivative.
+  [[nodiscard]] TaylorModel mean_from(const Bounds& x0) const;
+
   friend TaylorModel operator+(const TaylorModel& a, const TaylorModel& b);
   friend TaylorModel operator-(const TaylorModel& a, const TaylorModel& b);
   friend TaylorModel operator-(const TaylorModel& a);

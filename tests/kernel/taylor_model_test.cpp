@@ -178,5 +178,34 @@ TEST(ModelJet, ChoosesABranchOnlyWhereItIsTheSameEverywhere) {
   EXPECT_EQ(max(x, ModelJet(2.0)).c[0].centre(), 2.0);
 }
 
+TEST(TaylorModel, MeanFromAPlaceContainsTheMean) {
+  // Of a random polynomial of degree 8, whose mean has a closed form.
+  for_all([](Rng& rng) {
+    TaylorModel x = TaylorModel::parameter(-1.0, 1.0), f, power(1.0);
+    std::array<double, 9> a{};
+    for (double& c : a) c = uniform(rng, -1.0, 1.0);
+    for (const double c : a) {
+      f = f + c * power;
+      power = power * x;
+    }
+    const double from = uniform(rng, -1.0, 1.0), to = uniform(rng, -1.0, 1.0);
+    if (std::abs(to - from) < 1e-3) return;
+    Long integral = 0.0L;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const Long n = static_cast<Long>(k + 1);
+      integral += static_cast<Long>(a[k]) / n *
+                  (std::pow(static_cast<Long>(to), n) - std::pow(static_cast<Long>(from), n));
+    }
+    const Long mean = integral / (static_cast<Long>(to) - static_cast<Long>(from));
+    const TaylorModel m = f.mean_from(Bounds(from));
+    const Bounds b = m.at(to);
+    EXPECT_LE(static_cast<Long>(b.lo) - 1e-15L, mean);  // long double over a step of 1e-3: 2^-64 9/1e-3
+    EXPECT_GE(static_cast<Long>(b.hi) + 1e-15L, mean);
+    EXPECT_LE(b.hi - b.lo, 1e-13);
+    EXPECT_GE((f.with_radius(0.25)).mean_from(Bounds(from)).radius(), 0.25);
+  });
+  EXPECT_FALSE(TaylorModel::unknown().mean_from(Bounds(0.0)).finite());
+}
+
 }  // namespace
 }  // namespace blendwright

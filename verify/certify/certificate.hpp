@@ -17,7 +17,14 @@
 // width at all, an interval contains nothing but the roundings of its own evaluation, so that
 //   floor = 4 max over places of (hi - lo) (4)
 // 4, because it is looked at in some 64 places only; places 64 times wider than the middle one are left out,
-// where a pole and not rounding widens them. Evaluation in plain doubles rounds less often.
+// where a pole and not rounding widens them; for angles another 2^-52, a rounding of a unit normal.
+// Evaluation in plain doubles rounds less often, so that at the same places what is sampled must lie within
+//   [lo - floor, hi + floor] (5)
+// or the surface is not evaluated as it is defined, and nothing is agreed.
+//
+// Where the trimline stops (|C'| = 0 at an end of a piece) neither surface has a normal, but their angle has
+// a limit, which is bounded through the means of the normals' derivatives (verify/certify/seam_piece.hpp).
+// As for samples, angles at places with next to no normal are those a millionth of the domain further inside.
 #include <cstddef>
 #include <string>
 

@@ -71,7 +71,8 @@ Deviation deviation(const SeamProbe& probe, const std::vector<SeamSample>& sampl
       stands_out(samples, i, m, probe.length())) {
     const double lo = samples[i == 0 ? 0 : i - 1].v, hi = samples[std::min(i + 1, samples.size() - 1)].v;
     const auto f = [&](double v) { return m.sign * (probe.measure(v, samples[i].foot).*m.value); };
-    const Peak peak = detail::local_maximum(f, lo, hi, {worst.v, m.sign * (worst.*m.value)});
+    const Peak bracketed = detail::local_maximum(f, lo, hi, {worst.v, m.sign * (worst.*m.value)});
+    const Peak peak = detail::polished_maximum(f, lo, hi, bracketed);
     if (peak.at != worst.v) worst = probe.measure(peak.at, samples[i].foot);
   }
   return {worst.*m.value, std::sqrt(squares / static_cast<double>(samples.size())), worst.v, worst.point};

@@ -68,8 +68,8 @@ struct SeamOptions {
   /// Along v: both ends, and between them equal steps shifted by the golden ratio, so that no sample is a
   /// knot of a uniform spline, where interpolation errors vanish.
   int samples = 2048;
-  bool refine = true;  ///< each sampled worst is refined between its neighbours, by golden section with
-                       ///< parabolic steps
+  bool refine = true;  ///< each sampled worst is refined to a local maximum between its neighbours: golden
+                       ///< section with parabolic steps, then Newton's method
 };
 
 /// Never throws because the geometry is bad: bad geometry is the result (NaN counts as worst). The same

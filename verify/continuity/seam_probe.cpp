@@ -75,10 +75,12 @@ double SeamProbe::distance_to_primary(const Place& at) const {
   return std::abs(height - 0.5 * bend * along.squaredNorm());
 }
 
+double SeamProbe::least_normal() const { return vanishing * area_; }
+
 bool SeamProbe::degenerate(const Place& at) const {
   // Only numbers have a limit: a value that is not one must be seen where it is.
   if (!(at.blend.Su + at.blend.Sv + at.primary.Su + at.primary.Sv).allFinite()) return false;
-  return at.blend.Su.cross(at.blend.Sv).norm() <= vanishing * area_ || unit_normal(at.primary).isZero(0.0) ||
+  return at.blend.Su.cross(at.blend.Sv).norm() <= least_normal() || unit_normal(at.primary).isZero(0.0) ||
          at.C1.norm() * domain_.length() <= vanishing * length_;
 }
 

@@ -21,6 +21,9 @@ class SeamProbe {
   [[nodiscard]] SeamSample measure(double v, std::optional<UV> guess) const;
   [[nodiscard]] Interval domain() const { return domain_; }
   [[nodiscard]] double length() const { return length_; }  ///< of the blend's edge, about
+  /// |Su x Sv| of the blend at or below this is no normal: angles are taken a millionth of the domain further
+  /// inside.
+  [[nodiscard]] double least_normal() const;
 
  private:
   struct Place {

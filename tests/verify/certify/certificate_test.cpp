@@ -185,5 +185,59 @@ TEST(Certificate, DoesNotBoundTheAngleAtAPole) {
   EXPECT_LE(c.angle.floor, 1e-6);
 }
 
+/// (u, v^2, b u cos(k v)): the trimline u = 0 stops at v = 0.
+struct Stopping {
+  double b, k;
+  template <class T>
+  std::array<T, 3> operator()(const T& u, const T& v) const {
+    return {u, v * v, b * (u * cos(k * v))};
+  }
+  [[nodiscard]] SurfaceDomain domain() const { return {{0.0, 1.0}, {0.0, 1.0}}; }
+};
+Surface stopping(double b, double k) { return FormulaSurface<Stopping>(Stopping{b, k}); }
+
+TEST(Certificate, BoundsTheAngleWhereTheTrimlineStops) {
+  // nS = 2 v (-b cos(k v), 0, 1): the angle with z = 0 is atan(b |cos(k v)|), atan b in the limit v -> 0.
+  for (const double b : {1e-7, 1e-3, 0.5}) {
+    const SeamCertificate c = certified(seam_of(stopping(b, 7.0), stopping(0.0, 0.0)));
+    EXPECT_TRUE(c.angle.agreed()) << c.angle.unproven;
+    EXPECT_GE(c.angle.proven, std::atan(b) * (1.0 - 1e-12));
+    EXPECT_LE(c.angle.proven, 1.1 * std::atan(b) + c.angle.floor);
+    EXPECT_LE(c.angle.floor, 1e-12);
+  }
+  const SeamCertificate same = certified(seam_of(stopping(0.0, 0.0), stopping(0.0, 0.0)));
+  EXPECT_TRUE(same.angle.agreed()) << same.angle.unproven;
+  EXPECT_LE(same.angle.proven, 1e-12);
+  EXPECT_NE(same.curvature.unproven.find("the trimline stops there"), std::string::npos);
+}
+
+/// A surface whose jets are not quite what its enclosure says.
+struct Misread {
+  Surface of;
+  double factor;  ///< of Suu
+  [[nodiscard]] SurfaceJet jet(UV p) const {
+    SurfaceJet j = of.jet(p);
+    j.Suu *= factor;
+    return j;
+  }
+  [[nodiscard]] SurfacePartials partials(UV p) const { return of.partials(p); }
+  [[nodiscard]] SurfaceDomain domain() const { return of.domain(); }
+  void enclose(const TaylorModel& u, const TaylorModel& v, SurfaceEnclosure& out) const {
+    (void)of.enclose(u, v, out);
+  }
+};
+
+TEST(Certificate, NoticesASecondDerivativeThatIsOffByABillionth) {
+  const Surface bent = wavy(0.0, 0.0, 0.25, 7.0);
+  for (const double factor : {1.0, 1.0 + 1e-9, 1.0 - 1e-9}) {
+    const SeamCertificate c = certified(seam_of(Surface(Misread{bent, factor}), graph(flat)));
+    EXPECT_TRUE(c.gap.agreed() && c.angle.agreed());
+    EXPECT_EQ(c.curvature.agreed(), factor == 1.0) << c.curvature.unproven;
+    if (factor != 1.0) {
+      EXPECT_NE(c.curvature.unproven.find("not evaluated as it is defined"), std::string::npos);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace blendwright
