@@ -8,6 +8,10 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p gallery
 for job in specs/*.json; do
   name=$(basename "$job" .json)
+  if [[ $name == fit-* ]]; then   # shown as fitted
+    "$program" fit "$job" -o "$work/fitted/$name.json" --quiet
+    job=$work/fitted/$name.json
+  fi
   "$program" blend "$job" -o "$work" --force --quiet || [ $? -eq 1 ]   # 1: the printed figures are not tangent, and shown
   cp "$work/$name.png" gallery/
 done

@@ -111,6 +111,7 @@ constexpr Family families[] = {
     {"modes", "what the sweep equation holds for", [] { return words("mode"); }},
     {"frames", "axes of the coefficients b, c and d", [] { return words("frame"); }},
     {"families", "sixth-order families, for G2", [] { return words("family"); }},
+    {"objectives", "what a fit may ask of a blend", [] { return words("objective"); }},
     {"units", "units of length", [] { return words("unit"); }},
     {"exporters", "formats of the output", [] { return words("format"); }},
     {"schemas", "STEP application protocols", [] { return words("step_schema"); }},

@@ -10,6 +10,8 @@ std::span<const VerbInfo> verbs_table() {
        "blendwright blend joint.json -o out --format step,vtp"},
       {"verify", "build the blends of a job and verify them, in memory",
        "blendwright verify joint.json --tol-angle-deg 0.01"},
+      {"fit", "find the shape that a job asks for, and write the job that has it",
+       "blendwright fit joint.json -o fitted.json --report fit.html"},
       {"mesh", "turn the solid of a scene of soft objects into triangles",
        "blendwright mesh scene.json -o body.vtp -o body.stl --cells 256"},
       {"eval", "evaluate the field of a scene at given points",
@@ -62,9 +64,9 @@ void add_list(CLI::App& app, Program& program) {
 void add_schema(CLI::App& app, Program& program) {
   const auto command = std::make_shared<SchemaCommand>();
   CLI::App* sub = verb(app, "schema");
-  sub->add_option("OF", command->of, "job, scene or report")
+  sub->add_option("OF", command->of, "job, scene, report or fit-report")
       ->required()
-      ->check(CLI::IsMember({"job", "scene", "report"}));
+      ->check(CLI::IsMember({"job", "scene", "report", "fit-report"}));
   sub->callback([command, &program] { program.code = schema(*command, program.console); });
 }
 
@@ -79,6 +81,7 @@ int run(int argc, char** argv) {
   Program program{.console = Console::of_process(), .called = command_line(argc, argv)};
   add_blend(app, program);
   add_verify(app, program);
+  add_fit(app, program);
   add_mesh(app, program);
   add_eval(app, program);
   add_offset(app, program);

@@ -55,6 +55,7 @@ void add_report(CLI::App* sub, std::string& report);
 // One function per verb: declares its options and what it calls.
 void add_blend(CLI::App& app, Program& program);
 void add_verify(CLI::App& app, Program& program);
+void add_fit(CLI::App& app, Program& program);
 void add_mesh(CLI::App& app, Program& program);
 void add_eval(CLI::App& app, Program& program);
 void add_offset(CLI::App& app, Program& program);

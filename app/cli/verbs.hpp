@@ -44,6 +44,19 @@ struct VerifyCommand {
 /// Builds and verifies in memory.
 [[nodiscard]] int verify(const VerifyCommand& command, const Console& console);
 
+struct FitCommand {
+  std::string job;                      ///< "-": standard input
+  std::string output;                   ///< "-": standard output; empty: none
+  std::vector<std::string> objectives;  ///< as typed_objective takes them; empty: the job's
+  std::optional<int> starts;
+  std::string plot;            ///< empty: none
+  std::string report, called;  ///< as of BlendCommand
+  bool force = false, json = false, times = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Finds the shape that a job asks for, and writes the job that has it.
+[[nodiscard]] int fit(const FitCommand& command, const Console& console);
+
 struct MeshCommand {
   std::string scene;  ///< "-": standard input
   std::vector<std::string> outputs;
@@ -142,7 +155,7 @@ struct ListCommand {
 [[nodiscard]] std::vector<std::string> listed_families();
 
 struct SchemaCommand {
-  std::string of;  ///< "job", "scene" or "report"
+  std::string of;  ///< "job", "scene", "report" or "fit-report"
 };
 /// Prints a JSON Schema.
 [[nodiscard]] int schema(const SchemaCommand& command, const Console& console);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "app/json/fit_reader.hpp"
 #include "app/json/job_parts.hpp"
 #include "kernel/base/number_text.hpp"
 
@@ -7,29 +8,6 @@ namespace blendwright {
 namespace {
 
 constexpr std::array<const char*, 2> side_keys{"from", "to"};
-
-std::vector<LawPoint> read_law(const JsonValue& value, const std::string& where, Reading& reading) {
-  if (!value.items()) {
-    const auto factor = reading.number(value, where);
-    if (factor && !(*factor > 0.0)) reading.problem(where, "is " + number_text(*factor) + ", must be > 0");
-    return {{0.0, factor.value_or(1.0)}};
-  }
-  std::vector<LawPoint> law;
-  const auto points = reading.points(value, where, 2);
-  if (!points) return {{0.0, 1.0}};
-  for (std::size_t i = 0; i < points->size(); ++i) {
-    const LawPoint p{(*points)[i][0], (*points)[i][1]};
-    const std::string at = where + "/" + std::to_string(i);
-    if (!(p.t >= 0.0 && p.t <= 1.0))
-      reading.problem(at + "/0", "is " + number_text(p.t) + ", must be in [0, 1]");
-    if (!law.empty() && !(p.t > law.back().t))
-      reading.problem(at + "/0", "is " + number_text(p.t) + ", must be > " + number_text(law.back().t) +
-                                     ", the point before");
-    if (!(p.value > 0.0)) reading.problem(at + "/1", "is " + number_text(p.value) + ", must be > 0");
-    law.push_back(p);
-  }
-  return law;
-}
 
 void read_magnitude(const JsonValue& value, const std::string& where, SideSpec& side, Reading& reading) {
   ObjectReader object(value, where, job_object("magnitude"), reading);
@@ -169,6 +147,29 @@ void read_literal_domain(ObjectReader& blend, BlendEntry& entry, Reading& readin
 
 }  // namespace
 
+std::vector<LawPoint> read_law(const JsonValue& value, const std::string& where, Reading& reading) {
+  if (!value.items()) {
+    const auto factor = reading.number(value, where);
+    if (factor && !(*factor > 0.0)) reading.problem(where, "is " + number_text(*factor) + ", must be > 0");
+    return {{0.0, factor.value_or(1.0)}};
+  }
+  std::vector<LawPoint> law;
+  const auto points = reading.points(value, where, 2);
+  if (!points) return {{0.0, 1.0}};
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    const LawPoint p{(*points)[i][0], (*points)[i][1]};
+    const std::string at = where + "/" + std::to_string(i);
+    if (!(p.t >= 0.0 && p.t <= 1.0))
+      reading.problem(at + "/0", "is " + number_text(p.t) + ", must be in [0, 1]");
+    if (!law.empty() && !(p.t > law.back().t))
+      reading.problem(at + "/0", "is " + number_text(p.t) + ", must be > " + number_text(law.back().t) +
+                                     ", the point before");
+    if (!(p.value > 0.0)) reading.problem(at + "/1", "is " + number_text(p.value) + ", must be > 0");
+    law.push_back(p);
+  }
+  return law;
+}
+
 BlendEntry read_blend(const std::string& name, const JsonValue& value, const std::string& where,
                       const KnownPrimaries& primaries, Reading& reading) {
   ObjectReader blend(value, where, job_object("blend"), reading);
@@ -186,6 +187,8 @@ BlendEntry read_blend(const std::string& name, const JsonValue& value, const std
     entry.shape = read_shape(*shape, blend.at("shape"), asks_g2, reading);
   if (const JsonValue* rule = blend.find("correspondence"))
     entry.correspondence = read_correspondence(*rule, blend.at("correspondence"), reading);
+  if (const JsonValue* fit = blend.find("fit"))
+    entry.fit = std::make_shared<const FitSpec>(read_fit(*fit, blend.at("fit"), reading));
   if (blend.has("from") && blend.has("to")) read_literal_domain(blend, entry, reading);
   return entry;
 }

@@ -62,6 +62,19 @@ constexpr Choice<SixthOrderFamily> families[] = {
     {"triple", SixthOrderFamily::triple, "characteristic (L - q^2)^3, q = tension"},
     {"quintic", SixthOrderFamily::quintic, "characteristic L^3: no tension"}};
 
+constexpr Choice<ObjectiveKind> objectives[] = {
+    {"thin_plate", ObjectiveKind::thin_plate, "the least bending energy: the fairest surface"},
+    {"curvature_variation", ObjectiveKind::curvature_variation,
+     "the least change of normal curvature along the u-lines"},
+    {"rolling_ball", ObjectiveKind::rolling_ball,
+     "the middle of the blend is curved like a ball of this radius"},
+    {"pass_through", ObjectiveKind::pass_through, "the blend goes through these points"},
+    {"largest_curvature", ObjectiveKind::largest_curvature,
+     "no principal radius of curvature is less than this one"},
+    {"clearance", ObjectiveKind::clearance, "the blend keeps this far from a mesh or from a soft object"},
+    {"no_fold", ObjectiveKind::no_fold, "the blend does not turn over"},
+    {"scanned_points", ObjectiveKind::scanned_points, "the blend is close to measured points"}};
+
 constexpr Choice<OutputFormat> formats[] = {
     {"step", OutputFormat::step, "STEP: the blends and the trimmed primaries, sharing edges"},
     {"vtp", OutputFormat::vtp, "VTK PolyData: meshes and trimlines with the measured errors as point data"},
@@ -91,6 +104,7 @@ std::span<const Choice<CorrespondenceRule>> correspondence_choices() { return co
 std::span<const Choice<BlendMode>> mode_choices() { return modes; }
 std::span<const Choice<BlendFrame>> frame_choices() { return frames; }
 std::span<const Choice<SixthOrderFamily>> family_choices() { return families; }
+std::span<const Choice<ObjectiveKind>> objective_choices() { return objectives; }
 std::span<const Choice<OutputFormat>> format_choices() { return formats; }
 std::span<const Choice<StepSchema>> step_schema_choices() { return schemas; }
 
@@ -105,6 +119,7 @@ const std::vector<WordFamily>& word_families() {
       family("mode", "What the sweep equation holds for", mode_choices()),
       family("frame", "Axes of b, c and d", frame_choices()),
       family("family", "Sixth-order families, used when a side asks for G2", family_choices()),
+      family("objective", "What a fit may ask of a blend", objective_choices()),
       family("format", "Output files", format_choices()),
       family("step_schema", "STEP application protocol", step_schema_choices()),
       {"face_kind",

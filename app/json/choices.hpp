@@ -27,6 +27,7 @@ struct Choice {
 [[nodiscard]] std::span<const Choice<BlendMode>> mode_choices();
 [[nodiscard]] std::span<const Choice<BlendFrame>> frame_choices();
 [[nodiscard]] std::span<const Choice<SixthOrderFamily>> family_choices();
+[[nodiscard]] std::span<const Choice<ObjectiveKind>> objective_choices();
 [[nodiscard]] std::span<const Choice<OutputFormat>> format_choices();
 [[nodiscard]] std::span<const Choice<StepSchema>> step_schema_choices();
 

@@ -143,6 +143,89 @@ Keys shape_keys() {
           {"family", "family", "sixth-order family, used when a side asks for G2"}};
 }
 
+ObjectInfo objective_object(const Choice<ObjectiveKind>& kind) {
+  ObjectInfo object{"objective " + std::string(kind.name),
+                    std::string(kind.description),
+                    {{"kind", "objective", "the objective's kind", true},
+                     not_negative("weight", "how much it counts among the others; default 1")}};
+  using enum ObjectiveKind;
+  switch (kind.value) {
+    case thin_plate:
+    case curvature_variation:
+      break;
+    case rolling_ball:
+      add(object.keys,
+          {{"radius", "law", "radius of the ball: a number, or a law [[t, value], ...] along v", true},
+           {"across", "range", "part of u in [0, 1] that is to be curved so; default [0.45, 0.55]"}});
+      break;
+    case pass_through:
+      object.keys.push_back({"points", "points", "points of the surface", true});
+      break;
+    case largest_curvature:
+      object.keys.push_back(positive("least_radius", "least radius of curvature, model units"));
+      object.keys.back().required = true;
+      break;
+    case clearance:
+      add(object.keys,
+          {positive("distance", "least distance, model units"),
+           {"to", "text",
+            "the obstacle, relative to the job file's folder: a mesh (.stl, .vtp, .ply, .obj) or "
+            "a solid (\"scene.json\", \"scene.json#node\")",
+            true}});
+      object.keys[2].required = true;
+      break;
+    case no_fold:
+      object.keys.push_back({"margin", "number",
+                             "least cosine between the normal and that of the start; default 0.05", false,
+                             0.0, true, 0.99});
+      break;
+    case scanned_points:
+      add(object.keys,
+          {{"file", "text",
+            "the points, relative to the job file's folder: lines of x, y, z (.csv), .vtp, .ply, "
+            ".stl or .obj",
+            true},
+           positive("robust_scale",
+                    "distances well beyond this one count less and less, model units; default: "
+                    "all count")});
+      break;
+  }
+  return object;
+}
+
+std::vector<ObjectInfo> fit_objects() {
+  return {
+      {"fit",
+       "What is wanted of the blend's shape: `blendwright fit` finds the parameters",
+       {{"objectives", "objectives", "what is wanted, each with its weight", true},
+        {"unknowns", "fit_unknowns", "what may change"},
+        {"bounds", "fit_bounds", "how far it may change"},
+        {"samples", "counts",
+         "points across and along the blend where surfaces are looked at; default [12, 48]"},
+        {"iterations", "number", "at most so many steps; default 60", false, 1.0, true, 10'000.0},
+        {"starts", "number", "further starts, to see whether there is one optimum; default 1", false, 1.0,
+         true, 1000.0}}},
+      {"fit_unknowns",
+       "What a fit may change",
+       {{"tension", "boolean", "the tension, or q; default true"},
+        {"tension_per_component", "boolean", "three tensions, without G2; default false"},
+        {"coefficients", "boolean", "c and d, without G2, instead of the tension; default false"},
+        {"magnitudes", "counts",
+         "values of the magnitude's law along v, of both sides or [from, to]: 0 keeps it, 1 is constant; "
+         "default 6"},
+        {"tangent_angle", "booleans",
+         "the angle of the cross tangent, of both sides or [from, to]; default false"},
+        {"correspondence", "number", "inner values of the map along v; default 0: kept", false, 0.0, true,
+         64.0}}},
+      {"fit_bounds",
+       "How far the unknowns may go",
+       {{"tension", "range", "default [0.001, 50]"},
+        {"magnitude", "range", "of the cross tangent over the distance of the trimlines; default [0.05, 5]"},
+        {"tangent_angle_deg", "number", "largest angle; default 60", false, 0.0, false, 60.0},
+        {"least_speed", "number", "least slope of the map along v; default 0.05", false, 0.0, false, 1.0},
+        not_negative("prior", "weight of the pull towards the start; default 0.001")}}};
+}
+
 std::vector<ObjectInfo> plain_objects() {
   return {
       {"job",
@@ -161,6 +244,7 @@ std::vector<ObjectInfo> plain_objects() {
         {"to", "side", "the side u = 1", true},
         {"shape", "shape", "how the blend runs between its sides"},
         {"correspondence", "correspondence", "which points of the trimlines are joined"},
+        {"fit", "fit", "what is wanted of the shape; only `blendwright fit` acts on it"},
         {"v", "range", "literal boundary data: range of v"},
         {"closed", "boolean",
          "literal boundary data: true when they close smoothly; default: whether they do"}}},
@@ -217,6 +301,8 @@ const std::vector<ObjectInfo>& job_objects() {
     for (const PrimaryInfo& row : primaries_table()) objects.push_back(primary_object(row));
     objects.push_back(step_face_object());
     for (const auto& kind : trimline_choices()) objects.push_back(trimline_object(kind));
+    for (ObjectInfo& object : fit_objects()) objects.push_back(std::move(object));
+    for (const auto& kind : objective_choices()) objects.push_back(objective_object(kind));
     return objects;
   }();
   return all;

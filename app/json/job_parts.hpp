@@ -23,6 +23,9 @@ struct KnownPrimary {
 using KnownPrimaries = std::map<std::string, KnownPrimary>;
 [[nodiscard]] KnownPrimary known_primary(const PrimaryEntry& entry);
 
+/// A positive number, or a law [[t, value], ...] of positive values with t in [0, 1] increasing.
+[[nodiscard]] std::vector<LawPoint> read_law(const JsonValue& value, const std::string& where,
+                                             Reading& reading);
 /// One entry of "blends".
 [[nodiscard]] BlendEntry read_blend(const std::string& name, const JsonValue& value, const std::string& where,
                                     const KnownPrimaries& primaries, Reading& reading);

@@ -364,4 +364,29 @@ std::string job_text(const std::string& text, const JobSpec& changed) {
   return closed;
 }
 
+std::string moved_job_text(const std::string& text, const std::filesystem::path& from,
+                           const std::filesystem::path& to) {
+  namespace fs = std::filesystem;
+  const fs::path here = fs::absolute(from / ".").lexically_normal();
+  const fs::path there = fs::absolute(to / ".").lexically_normal();
+  if (here == there) return text;
+  JsonEdit edit(text, 0, [](const JsonValue& value) { return value; });
+  const auto move = [&](const Path& path) {
+    const JsonValue value = edit.value(path);
+    if (!value.text() || fs::path(*value.text()).is_absolute()) return;
+    edit.set(path, (here / *value.text()).lexically_normal().lexically_relative(there).string());
+  };
+  const JsonValue root = parse_json(text);
+  if (const JsonValue* primaries = root.find("primaries"))
+    for (const JsonMember& m : *primaries->members()) move({"primaries", m.key, "file"});
+  for (const JsonMember& m : *root.find("blends")->members()) {
+    const JsonValue* fit = m.value.find("fit");
+    if (!fit) continue;
+    for (std::size_t i = 0; i < fit->find("objectives")->items()->size(); ++i)
+      for (const char* key : {"file", "to"})
+        move({"blends", m.key, "fit", "objectives", std::to_string(i), key});
+  }
+  return edit.text();
+}
+
 }  // namespace blendwright

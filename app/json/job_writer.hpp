@@ -1,5 +1,6 @@
 #pragma once
 // A job's text with other values: how fits and editors save what they changed.
+#include <filesystem>
 #include <string>
 
 #include "app/pipeline/job.hpp"
@@ -15,5 +16,10 @@ namespace blendwright {
 /// job or a value cannot stand in one (a factor of 0, a number that is not finite), std::logic_error when the
 /// blends are not those of the text.
 [[nodiscard]] std::string job_text(const std::string& text, const JobSpec& changed);
+
+/// `text` of a job file in the folder `from` for a file in `to`: the relative paths in it name the same
+/// files.
+[[nodiscard]] std::string moved_job_text(const std::string& text, const std::filesystem::path& from,
+                                         const std::filesystem::path& to);
 
 }  // namespace blendwright

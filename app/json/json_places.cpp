@@ -111,9 +111,12 @@ bool same(const JsonValue& old, const JsonValue& wanted, const JsonEdit::Meaning
 }  // namespace
 
 const JsonPlace* JsonPlace::find(std::string_view name) const {
-  const auto at = std::find_if(inside.begin(), inside.end(),
-                               [&](const JsonPlace& p) { return p.key_begin < p.begin && p.key == name; });
-  return at == inside.end() ? nullptr : &*at;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const JsonPlace& p = inside[i];
+    const bool member = p.key_begin < p.begin;
+    if (member ? p.key == name : std::to_string(i) == name) return &p;
+  }
+  return nullptr;
 }
 
 JsonPlace json_place(std::string_view text, std::size_t from) {

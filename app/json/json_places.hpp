@@ -17,6 +17,7 @@ struct JsonPlace {
   std::string key{};               ///< member of an object: its name
   std::size_t key_begin = 0;       ///< member of an object: where the key's quote stands
   std::vector<JsonPlace> inside{};
+  /// The member of this name, or the item of a list at this index ("0", "1", ...); null when there is none.
   [[nodiscard]] const JsonPlace* find(std::string_view name) const;
 };
 
@@ -27,7 +28,7 @@ struct JsonPlace {
 /// what is new is laid out like its surroundings: on the same line where that stays within 110 columns.
 class JsonEdit {
  public:
-  using Path = std::vector<std::string>;  ///< keys, from the object down
+  using Path = std::vector<std::string>;  ///< keys, and indices of lists, from the object down
   /// The number that a value of the text stands for, when it is a formula; else the value itself. Numbers
   /// that stand for the new one already are kept as they are typed.
   using Meaning = std::function<JsonValue(const JsonValue&)>;

@@ -24,6 +24,10 @@ void add_job_types(Value& definitions) {
       {"knots", exactly(list_of(number), 2)},
       {"closed_pair", exactly(typed("boolean"), 2)},
       {"law", either({number, list_of(exactly(number, 2), 2)})},
+      {"booleans", either({typed("boolean"), exactly(typed("boolean"), 2)})},
+      {"counts", either({number, exactly(number, 2)})},
+      {"points", list_of(exactly(number, 3), 1)},
+      {"objectives", list_of(reference("objective"), 1)},
       {"pairs", list_of(exactly(number, 2), 1)},
       {"axes", exactly(exactly(number, 3), 3)},
       {"frame_or_axes", either({reference("frame"), reference("frame_axes")})},
@@ -36,7 +40,7 @@ void add_job_types(Value& definitions) {
 
 Value job_property(const KeyInfo& key) {
   if (key.type == "number") return number_within(key);
-  if (key.type == "trimline") return reference("trimline_kind");
+  if (key.type == "trimline" || key.type == "objective") return reference(key.type + "_kind");
   if (key.type == "trimline_object") return reference("trimline");
   return reference(key.type);
 }
@@ -52,6 +56,7 @@ Value report_type(const std::string& type) {
   if (type == "integer" || type == "boolean") return typed(type.c_str());
   // A figure that is not a number in the end (0/0 at a pole) is null.
   if (type == "number") return Value::object({{"type", Value::array({"number", "null"})}});
+  if (type == "seconds") return map_of(typed("number"));
   if (type == "point") return exactly(report_type("number"), 3);
   return reference(type);
 }
@@ -67,7 +72,8 @@ std::string job_schema() {
   Value definitions = common_types();
   add_job_types(definitions);
   for (const WordFamily& f : word_families())
-    definitions.add(f.name == "trimline" ? "trimline_kind" : std::string(f.name), family_schema(f));
+    definitions.add(std::string(f.name) + (f.name == "trimline" || f.name == "objective" ? "_kind" : ""),
+                    family_schema(f));
   Value::Array kinds;
   for (const std::string& kind : primary_kinds()) kinds.emplace_back(kind);
   definitions.add("primary_kind", Value::object({{"enum", std::move(kinds)}}));
@@ -75,16 +81,22 @@ std::string job_schema() {
   std::vector<std::string> trimlines;
   for (const auto& kind : trimline_choices()) trimlines.emplace_back(kind.name);
   definitions.add("trimline", by_kind("trimline", trimlines));
+  std::vector<std::string> objectives;
+  for (const auto& kind : objective_choices()) objectives.emplace_back(kind.name);
+  definitions.add("objective", by_kind("objective", objectives));
   for (const ObjectInfo& object : job_objects())
     if (object.name != "job") definitions.add(definition(object.name), object_schema(object, job_property));
   schema.add("$defs", std::move(definitions));
   return json_text(schema);
 }
 
-std::string report_schema() {
+std::string report_schema() { return schema_parts::report_schema_of("blendwright report", report_objects()); }
+
+namespace schema_parts {
+
+std::string report_schema_of(const char* title, const std::vector<ObjectInfo>& objects) {
   const auto property = [](const KeyInfo& key) { return report_type(key.type); };
-  const auto& objects = report_objects();
-  Value schema = schema_head("blendwright report");
+  Value schema = schema_head(title);
   const Value root = object_schema(objects.front(), property);
   for (const JsonMember& m : *root.members()) schema.add(m.key, m.value);
   Value definitions{Value::Object()};
@@ -94,4 +106,5 @@ std::string report_schema() {
   return json_text(schema);
 }
 
+}  // namespace schema_parts
 }  // namespace blendwright

@@ -31,6 +31,8 @@ using Value = JsonValue;
 /// is the definition "<what>.<kind>".
 [[nodiscard]] Value by_kind(const char* what, const std::vector<std::string>& kinds);
 [[nodiscard]] Value schema_head(const char* title);
+/// The schema of a report from its tables; the first object is the report itself.
+[[nodiscard]] std::string report_schema_of(const char* title, const std::vector<ObjectInfo>& objects);
 
 template <class Property>
 [[nodiscard]] Value object_schema(const ObjectInfo& object, Property property) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -53,12 +54,27 @@ struct BlendSideEntry {
   SideSpec side{};
 };
 
+/// What a fit may ask for; the alternatives of FitObjective, in their order.
+enum class ObjectiveKind {
+  thin_plate,
+  curvature_variation,
+  rolling_ball,
+  pass_through,
+  largest_curvature,
+  clearance,
+  no_fold,
+  scanned_points
+};
+
+struct FitSpec;  // app/pipeline/fit_spec.hpp
+
 struct BlendEntry {
   std::string name{};
   std::array<BlendSideEntry, 2> sides{};  ///< from (u = 0), to (u = 1)
   CorrespondenceSpec correspondence{};
   BlendShape shape{};
   std::optional<CurveDomain> v{};  ///< literal data: range, and whether it closes
+  std::shared_ptr<const FitSpec> fit{};  ///< what is wanted of the shape; building the blend ignores it
   [[nodiscard]] bool literal() const { return sides[0].literal.has_value(); }
 };
 

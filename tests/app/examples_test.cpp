@@ -20,7 +20,8 @@ const std::map<std::string, bool> expected{
     {"fig4-eq11", true},          {"fig4-eq11-printed", false}, {"fig5-eq12", true},
     {"fig6-eq13", true},          {"fig6-eq13-printed", false}, {"fig7-eq14", true},
     {"fig7-eq14-printed", false}, {"leaning-cylinder", true},   {"open-blend", true},
-    {"step-transition", true},    {"varying-magnitude", true},
+    {"step-transition", true},    {"varying-magnitude", true},  {"fit-rolling-ball", true},
+    {"fit-fairest", true},        {"fit-through-points", true}, {"fit-clearance", true},
 };
 
 TEST(Examples, AreJudgedAsExpected) {

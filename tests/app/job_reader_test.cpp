@@ -305,11 +305,15 @@ std::vector<std::string> path_of(const std::string& object) {
       {"shape", {"blends", "x", "shape"}},
       {"frame_axes", {"blends", "x", "shape", "frame"}},
       {"correspondence", {"blends", "x", "correspondence"}},
+      {"fit", {"blends", "x", "fit"}},
+      {"fit_unknowns", {"blends", "x", "fit", "unknowns"}},
+      {"fit_bounds", {"blends", "x", "fit", "bounds"}},
       {"tolerance", {"tolerance"}},
       {"output", {"output"}},
       {"axis", {"primaries", "a", "axis"}},
       {"face_selector", {"primaries", "a", "select"}}};
   if (object.rfind("primary ", 0) == 0) return {"primaries", "a"};
+  if (object.rfind("objective ", 0) == 0) return {"blends", "x", "fit", "objectives"};
   if (object.rfind("trimline ", 0) == 0) return {"blends", "x", "from", "trimline"};
   return places.at(object);
 }
@@ -331,6 +335,10 @@ TEST(JobReader, ReadsEveryKeyOfItsTables) {
       set(target, key.name, JsonValue());  // null is never a good value, so that reading it is noticed
       std::string where;
       for (const std::string& part : path) where += "/" + part;
+      if (object.name.rfind("objective ", 0) == 0) {
+        target = JsonValue::array({target});
+        where += "/0";
+      }
       where += "/" + key.name;
       EXPECT_THAT(problems(json_text(root)), Contains(Field(&Problem::where, where)));
       ++keys;

@@ -1,0 +1,17 @@
+#pragma once
+// A fit as a report for people.
+#include <filesystem>
+#include <string>
+
+#include "app/pipeline/fit_job.hpp"
+#include "app/pipeline/staging.hpp"
+#include "app/report/page.hpp"
+
+namespace blendwright {
+
+/// Verdict, objectives, parameters, convergence, how well the shape is determined. Figures are those of the
+/// JSON report. `command`: how the program was called.
+[[nodiscard]] ReportPage fit_page(const JobSpec& job, const FitJobResult& result,
+                                  const std::vector<WrittenFile>& files, const std::string& command);
+
+}  // namespace blendwright
