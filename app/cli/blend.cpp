@@ -47,7 +47,7 @@ int blend(const BlendCommand& command, const Console& console) {
       console.out() << run_table(result, &outputs, shown_name(command.job))
                     << with_seconds(written_files(outputs, job.output.step_schema), run.seconds());
     }
-    return verified(result, &outputs) ? exit_done : exit_not_verified;
+    return exit_code_of(result, &outputs);
   });
 }
 

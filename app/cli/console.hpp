@@ -18,11 +18,15 @@ struct ExitCode {
   std::string_view meaning;
 };
 inline constexpr int exit_done = 0, exit_not_verified = 1, exit_usage = 2, exit_bad_input = 3,
-                     exit_no_result = 4, exit_input_output = 5;
+                     exit_no_result = 4, exit_input_output = 5, exit_defect = 6;
 inline constexpr ExitCode exit_codes[] = {
-    {exit_done, "done"},           {exit_not_verified, "built, but not verified, or undecided"},
-    {exit_usage, "usage"},         {exit_bad_input, "bad input"},
-    {exit_no_result, "no result"}, {exit_input_output, "input or output failed"}};
+    {exit_done, "done"},
+    {exit_not_verified, "built, but not verified, or undecided"},
+    {exit_usage, "usage"},
+    {exit_bad_input, "bad input"},
+    {exit_no_result, "no result"},
+    {exit_input_output, "input or output failed"},
+    {exit_defect, "two measurements disagree: a defect of the program"}};
 
 class Console {
  public:

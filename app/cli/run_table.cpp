@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/cli/console.hpp"
 #include "app/cli/text_table.hpp"
 #include "kernel/base/number_text.hpp"
 
@@ -153,6 +154,39 @@ std::string fairness_table(const JobResult& result) {
   return text;
 }
 
+/// How well the two measurements of gaps and angles agree over all stages, or that the program is wrong.
+std::string second_lines(const JobResult& result) {
+  double gap = 0.0, angle = 0.0;
+  std::size_t places = 0;
+  const auto take = [&](double& largest, const SecondFigure& f) {
+    largest = std::max(largest, f.difference);
+    places += f.places;
+  };
+  for (const BlendResult& b : result.blends)
+    for (const BlendReport& stage : b.stages) {
+      if (!stage.second) continue;
+      for (const SecondSeam& seam : stage.second->seams) {
+        for (const SecondFigure& f : {seam.gap, seam.surface_gap}) take(gap, f);
+        take(angle, seam.angle);
+      }
+      if (!stage.second->closing) continue;
+      take(gap, stage.second->closing->gap);
+      take(angle, stage.second->closing->angle);
+    }
+  const std::vector<std::string> defects = program_defects(result);
+  if (defects.empty() && places == 0) return "";
+  std::string text;
+  if (defects.empty()) {
+    text = "  measured twice: gaps agree to " + figure(gap, true) + " " + name(result.job.unit);
+    return text + ", angles to " + figure(angle * Radians(1.0).degrees(), true) + " deg\n";
+  }
+  text =
+      "  DEFECT OF THE PROGRAM: two measurements of one figure disagree. The figures above\n"
+      "  cannot be trusted; please report this with the job file.\n";
+  for (const std::string& defect : defects) text += "    " + defect + "\n";
+  return text;
+}
+
 std::string failed_checks(const JobResult& result) {
   std::string text;
   for (const BlendResult& b : result.blends) {
@@ -220,6 +254,7 @@ std::string run_table(const JobResult& result, const JobOutputs* outputs, const 
   text += proven_table(result);
   text += fairness_table(result);
   text += failed_checks(result);
+  text += second_lines(result);
   if (outputs)
     for (const std::string& p : shape_problems(result, *outputs)) text += "  " + p + "\n";
   if (outputs && outputs->step) {
@@ -229,6 +264,11 @@ std::string run_table(const JobResult& result, const JobOutputs* outputs, const 
     text += "  measured on the fitted B-spline surfaces, in memory\n";
   }
   return text;
+}
+
+int exit_code_of(const JobResult& result, const JobOutputs* outputs) {
+  if (!program_defects(result).empty()) return exit_defect;
+  return verified(result, outputs) ? exit_done : exit_not_verified;
 }
 
 std::string size_text(std::size_t bytes) {

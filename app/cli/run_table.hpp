@@ -13,6 +13,8 @@ namespace blendwright {
 /// 80 columns unless a name is long.
 [[nodiscard]] std::string run_table(const JobResult& result, const JobOutputs* outputs,
                                     const std::string& job_file);
+/// 0 when verified; the code of a defect of the program comes before that of a blend that is not verified.
+[[nodiscard]] int exit_code_of(const JobResult& result, const JobOutputs* outputs);
 /// "wrote out/x.step (AP242, 41 kB), x.report.json": every file by its name, wrapped at 80 columns.
 [[nodiscard]] std::string written_files(const JobOutputs& outputs, StepSchema schema);
 /// The same with a remark on each file, unless it is empty.

@@ -30,7 +30,7 @@ int verify(const VerifyCommand& command, const Console& console) {
       console.out() << report_json(result, nullptr, command.times);
     else if (!command.quiet)
       console.out() << run_table(result, nullptr, shown_name(command.job));
-    return verified(result) ? exit_done : exit_not_verified;
+    return exit_code_of(result, nullptr);
   });
 }
 

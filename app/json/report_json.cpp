@@ -182,6 +182,8 @@ constexpr Field<Stage> stage_fields[] = {
      [](const Stage& s) { return JsonValue(s.report.self_intersection.pairs); }},
     {"fairness", "fairness or null", "energies and extremes of curvature; null: not asked for",
      [](const Stage& s) { return s.report.fairness ? fairness_json(*s.report.fairness) : JsonValue(); }},
+    {"second_path", "second_path or null", "gaps and angles measured again; null: they were not",
+     [](const Stage& s) { return s.report.second ? second_json(*s.report.second) : JsonValue(); }},
     {"findings", "list of finding", "every check that failed or has a note",
      [](const Stage& s) {
        const std::array asked{s.entry.sides[0].side.continuity, s.entry.sides[1].side.continuity};
@@ -339,6 +341,8 @@ constexpr Field<Report> report_fields[] = {
      [](const Report& r) { return JsonValue(word_for(unit_choices(), r.result.job.unit)); }},
     {"verified", "boolean", "every side reaches what was asked at its last stage, and the STEP file is sound",
      [](const Report& r) { return JsonValue(verified(r.result, r.outputs)); }},
+    {"defects", "list of text", "figures that two measurements disagree about: the program is wrong there",
+     [](const Report& r) { return texts(program_defects(r.result)); }},
     {"tolerance", "tolerance", "what counts as continuous",
      [](const Report& r) { return written<Tolerance>(r.result.job.tolerance, tolerance_fields); }},
     {"blends", "list of blend", "the blends in the order of the job",
@@ -374,7 +378,7 @@ const std::vector<ObjectInfo>& report_objects() {
   static const std::vector<ObjectInfo> all = [] {
     ObjectInfo report = object_info<Report>("report", "What blendwright built and measured", report_fields);
     report.keys.push_back({"times", "list of time", "only when clock readings were asked for"});
-    return std::vector<ObjectInfo>{
+    std::vector<ObjectInfo> objects{
         report,
         object_info<Tolerance>("tolerance", "What counts as continuous", tolerance_fields),
         object_info<BlendContext>("blend", "One blend", blend_fields),
@@ -393,6 +397,8 @@ const std::vector<ObjectInfo>& report_objects() {
         object_info<StepContent>("step", "The STEP file as read back", step_fields),
         object_info<WrittenFile>("file", "One file", file_fields),
         object_info<StageTime>("time", "A clock reading", time_fields)};
+    for (ObjectInfo& object : second_objects()) objects.push_back(std::move(object));
+    return objects;
   }();
   return all;
 }

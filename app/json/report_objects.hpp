@@ -6,7 +6,7 @@
 
 #include "app/json/job_keys.hpp"
 #include "app/json/json_value.hpp"
-#include "verify/surface/fairness.hpp"
+#include "verify/report/blend_report.hpp"
 
 namespace blendwright {
 
@@ -38,6 +38,8 @@ template <class T>
 [[nodiscard]] JsonValue extreme_json(const Extreme& extreme);
 [[nodiscard]] JsonValue fairness_json(const FairnessReport& fairness);
 [[nodiscard]] ObjectInfo fairness_object();
+[[nodiscard]] JsonValue second_json(const BlendReport::Second& second);
+[[nodiscard]] std::vector<ObjectInfo> second_objects();
 
 /// Every object of a report; the first is the report itself.
 [[nodiscard]] const std::vector<ObjectInfo>& report_objects();

@@ -4,6 +4,7 @@
 
 #include "app/pipeline/boundary_strip.hpp"
 #include "app/pipeline/build_primaries.hpp"
+#include "app/pipeline/second_surfaces.hpp"
 #include "kernel/base/number_text.hpp"
 #include "parametric/trimline/crossing.hpp"
 
@@ -191,7 +192,18 @@ BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
     }
     return s;
   };
-  return {result.entry.name, surface, {seam(0), seam(1)}, result.blend.surface.domain().v_closed};
+  BlendUnderTest whole{
+      result.entry.name, surface, {seam(0), seam(1)}, result.blend.surface.domain().v_closed};
+  whole.second = second_surfaces(whole);
+  return whole;
+}
+
+std::vector<std::string> program_defects(const JobResult& result) {
+  std::vector<std::string> all;
+  for (const BlendResult& blend : result.blends)
+    for (const BlendReport& stage : blend.stages)
+      for (std::string& text : disagreements(stage, result.job.unit)) all.push_back(std::move(text));
+  return all;
 }
 
 JobResult run_job(const JobSpec& job, const Progress& progress, const RunOptions& options) {

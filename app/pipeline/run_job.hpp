@@ -48,4 +48,7 @@ struct JobResult {
 /// back).
 [[nodiscard]] BlendUnderTest under_test(const BlendResult& blend, const Surface& surface);
 
+/// Every figure that the two measurements of it disagree about, at every stage: the program is wrong then.
+[[nodiscard]] std::vector<std::string> program_defects(const JobResult& result);
+
 }  // namespace blendwright

@@ -31,7 +31,8 @@ struct WriteOptions {
 /// What is wrong with the shape that was written: joining, validity, free trimline edges, largest tolerance.
 [[nodiscard]] std::vector<std::string> shape_problems(const JobResult& result, const JobOutputs& outputs);
 
-/// True when every blend reaches what was asked of it at its last measured stage, and the shape checks pass.
+/// True when every blend reaches what was asked of it at its last measured stage, the shape checks pass, and
+/// both measurements of every figure agree.
 [[nodiscard]] bool verified(const JobResult& result, const JobOutputs* outputs = nullptr);
 
 }  // namespace blendwright

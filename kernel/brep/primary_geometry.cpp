@@ -76,6 +76,11 @@ gp_Trsf transform(const RigidMotion& m) {
   return t;
 }
 
+void place(PrimaryGeometry& p, const RigidMotion& motion) {
+  p.placement = transform(motion);
+  p.geometry = handle<Geom_Surface>::DownCast(p.geometry->Transformed(p.placement));
+}
+
 /// The knot nearest to x, inserted where there is none, becomes the first one of direction `d`.
 void move_spline_seam(const handle<Geom_BSplineSurface>& spline, int d, double x) {
   const auto knot = [&](int i) { return d == 0 ? spline->UKnot(i) : spline->VKnot(i); };
@@ -102,15 +107,22 @@ std::optional<gp_Ax1> turning_axis(const handle<Geom_Surface>& g) {
 
 }  // namespace
 
+std::optional<PrimaryGeometry> own_geometry(const Surface& surface) {
+  const auto* moved = surface.target<PlacedSurface>();
+  if (!moved) return elementary(surface);
+  std::optional<PrimaryGeometry> p = own_geometry(moved->shape);
+  if (p) place(*p, moved->motion);
+  return p;
+}
+
 PrimaryGeometry primary_geometry(const Surface& surface, double tolerance) {
-  if (const auto own = elementary(surface)) return *own;
+  if (const auto own = own_geometry(surface)) return *own;
+  PrimaryGeometry p;
   if (const auto* moved = surface.target<PlacedSurface>()) {
-    PrimaryGeometry p = primary_geometry(moved->shape, tolerance);
-    p.placement = transform(moved->motion);
-    p.geometry = handle<Geom_Surface>::DownCast(p.geometry->Transformed(p.placement));
+    p = primary_geometry(moved->shape, tolerance);
+    place(p, moved->motion);
     return p;
   }
-  PrimaryGeometry p;
   p.box = surface.domain();
   p.geometry = to_occt(fit_surface(surface, {.tolerance = tolerance}).surface);
   return p;

@@ -3,6 +3,7 @@
 #include <Geom_Surface.hxx>
 #include <gp_Trsf.hxx>
 #include <memory>
+#include <optional>
 
 #include "kernel/geometry/surface.hpp"
 
@@ -26,8 +27,10 @@ struct PrimaryGeometry {
   [[nodiscard]] bool flipped() const { return map.determinant() < 0.0; }
 };
 
-/// Plane, circular cylinder, cone, sphere, torus, B-splines and faces of a part keep their own geometry; any
-/// other surface becomes a B-spline within `tolerance` of it.
+/// The exact geometry of planes, circular cylinders, cones, spheres, tori, B-splines and faces of a part,
+/// also placed; empty for any other surface.
+[[nodiscard]] std::optional<PrimaryGeometry> own_geometry(const Surface& surface);
+/// The same; any other surface becomes a B-spline within `tolerance` of it.
 [[nodiscard]] PrimaryGeometry primary_geometry(const Surface& surface, double tolerance);
 
 /// The same surface with the seams of its closed directions at `seams` (in the old parameters; where a

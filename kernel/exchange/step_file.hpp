@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/brep/extrema.hpp"
 #include "kernel/brep/shape.hpp"
 
 namespace blendwright {
@@ -30,6 +31,7 @@ struct StepFace {
   bool reversed = false;  ///< the outward normal of the face is -(Su x Sv)
   std::optional<Colour> colour;
   std::size_t control_points = 0;
+  std::optional<ExtremaSurface> extrema{};  ///< the CAD kernel's geometry itself, in the same parameters
 };
 struct StepContent {
   std::vector<StepFace> faces;  ///< in the order of the file

@@ -19,6 +19,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <fstream>
 
+#include "kernel/brep/extrema_impl.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/occt_session.hpp"
 #include "kernel/brep/occt_surface.hpp"
@@ -79,7 +80,8 @@ StepFace step_face(const ShapeFace& face) {
   if (spline) ours = detail::from_occt(spline);
   return {face.name, ours ? Surface(*ours) : Surface(detail::OcctSurface(g.geometry, false, g.box)),
           g.reversed, face.colour,
-          spline ? static_cast<std::size_t>(spline->NbUPoles() * spline->NbVPoles()) : 0};
+          spline ? static_cast<std::size_t>(spline->NbUPoles() * spline->NbVPoles()) : 0,
+          extrema_surface(g.geometry, g.box)};
 }
 
 /// The text between the first pair of `open` ... `close` after `key`.

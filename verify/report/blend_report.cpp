@@ -43,6 +43,15 @@ double size_of(const Surface& surface) {
   return std::max((high - low).maxCoeff(), 0.0);
 }
 
+void measure_again(const BlendUnderTest& under_test, BlendReport& report) {
+  const auto& [blend, primaries] = *under_test.second;
+  BlendReport::Second second;
+  for (std::size_t side = 0; side < 2; ++side)
+    second.seams[side] = second_path(under_test.seams[side], report.seams[side], {blend, primaries[side]});
+  if (report.closing) second.closing = second_closing(under_test.blend, *report.closing, blend);
+  report.second = std::move(second);
+}
+
 }  // namespace
 
 BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, const VerifyOptions& options,
@@ -56,6 +65,7 @@ BlendReport verify_blend(const BlendUnderTest& blend, const std::string& stage, 
     report.proven = {certify_seam(blend.seams[0], report.seams[0]),
                      certify_seam(blend.seams[1], report.seams[1])};
   if (blend.closed) report.closing = check_closing(blend.blend);
+  if (blend.second) measure_again(blend, report);
   report.surface_checked = options.surface_checks;
   if (options.surface_checks) check_surface(blend, options, report);
   if (options.fairness) report.fairness = fairness(blend.blend, *options.fairness);

@@ -8,6 +8,7 @@
 
 #include "verify/certify/certificate.hpp"
 #include "verify/continuity/seam.hpp"
+#include "verify/second/second_path.hpp"
 #include "verify/surface/fairness.hpp"
 #include "verify/surface/surface_checks.hpp"
 
@@ -19,6 +20,12 @@ struct BlendUnderTest {
   Surface blend;
   std::array<Seam, 2> seams;
   bool closed = false;  ///< the blend is meant to close: S(u, v.lo) = S(u, v.hi)
+  /// The same surfaces as other code knows them; empty: nothing is measured twice.
+  struct Second {
+    SecondSurface blend;
+    std::array<SecondSurface, 2> primaries;
+  };
+  std::optional<Second> second{};
 };
 
 struct BlendReport {
@@ -35,6 +42,12 @@ struct BlendReport {
   std::array<std::optional<PenetrationReport>, 2> penetration;  ///< per side that has a primary
   SelfIntersectionReport self_intersection;
   std::optional<FairnessReport> fairness{};  ///< when asked for
+  /// Gaps and angles measured again, where there were other surfaces to measure them on.
+  struct Second {
+    std::array<SecondSeam, 2> seams;
+    std::optional<SecondClosing> closing{};
+  };
+  std::optional<Second> second{};
 };
 
 struct VerifyOptions {
@@ -65,6 +78,11 @@ struct Finding {
 [[nodiscard]] std::vector<Finding> judge(const BlendReport& report, const std::array<Continuity, 2>& asked,
                                          const Tolerance& tolerance,
                                          LengthUnit unit = LengthUnit::millimetre);
+
+/// Where the two measurements of a figure disagree: a defect of the program, not of the blend. One sentence
+/// each: which figure, where, both values, and by how much they may differ.
+[[nodiscard]] std::vector<std::string> disagreements(const BlendReport& report,
+                                                     LengthUnit unit = LengthUnit::millimetre);
 
 struct CheckInfo {
   std::string_view name, description;
