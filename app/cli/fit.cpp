@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "app/cli/run_table.hpp"
 #include "app/cli/text_table.hpp"
@@ -55,7 +57,8 @@ FitJobOptions options_of(const FitCommand& command, const JobSpec& job) {
     options.files.push_back(typed.file);
   }
   options.starts = command.starts;
-  options.threads = command.threads.value_or(1);
+  options.threads =
+      command.threads.value_or(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   options.folder = command.output.empty() || to_standard_output(command)
                        ? job.folder
                        : fs::path(command.output).parent_path();
@@ -134,6 +137,12 @@ std::vector<WrittenFile> write_files(const FitCommand& command, const FitJobResu
   }
 }
 
+/// A scene of soft objects has nodes, a job has blends.
+bool is_scene(const std::string& text) {
+  const JsonValue root = parse_json(text, R"(the shortest job has "primaries" and "blends")");
+  return root.find("nodes") && !root.find("blends");
+}
+
 int fit_job(const FitCommand& command, const std::string& text, const Console& console, Run& run) {
   const JobSpec job = read_job(text, command.job);
   const FitJobOptions options = options_of(command, job);
@@ -159,6 +168,9 @@ int fit_job(const FitCommand& command, const std::string& text, const Console& c
                              ? std::string("nothing written")
                              : written_files(files, [](const WrittenFile& f) { return size_text(f.bytes); }),
                          run.seconds());
+  const std::vector<std::string> defects = program_defects(result.verified);
+  for (const std::string& d : defects) console.fail(d);
+  if (!defects.empty()) return exit_defect;
   return result.fulfilled() && sound ? exit_done : exit_not_verified;
 }
 
@@ -171,6 +183,7 @@ int fit(const FitCommand& command, const Console& console) {
     if (command.threads) limit.emplace(*command.threads);
     require_sensible(command);
     const std::string text = read_json_text(command.job);
+    if (is_scene(text)) throw InputError("", "is a scene of soft objects, must be a job with \"blends\"");
     return fit_job(command, text, console, run);
   });
 }

@@ -260,9 +260,10 @@ FitJobResult run_fit_job(const std::string& text, const JobSpec& job, const FitJ
   result.times.push_back({"fitting", watch.lap()});
 
   progress.at(0.9, "verifying");
-  result.text = moved_job_text(job_text(text, after), job.folder, options.folder);
-  JobSpec again = read_job(result.text, options.folder / (job.name + ".json"));
-  result.verified = run_job(again, Progress{.stop = progress.stop});
+  const std::string fitted_text = job_text(text, after);
+  result.verified =
+      run_job(read_job(fitted_text, job.folder / (job.name + ".json")), Progress{.stop = progress.stop});
+  result.text = moved_job_text(fitted_text, job.folder, options.folder);  // a folder that may not exist yet
   result.times.push_back({"verifying", watch.lap()});
   return result;
 }

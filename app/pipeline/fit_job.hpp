@@ -30,7 +30,7 @@ struct FittedBlend {
 struct FitJobResult {
   std::string text;  ///< of the fitted job
   std::vector<FittedBlend> blends;
-  JobResult verified;  ///< of `text`, read again
+  JobResult verified;  ///< of the fitted job's text, read again
   std::vector<StageTime> times;
   [[nodiscard]] bool fulfilled() const;
 };

@@ -210,6 +210,21 @@ TEST(BadIntents, AreAllToldAtOnce) {
   EXPECT_EQ(run_program("verify " + quoted_path(folder / "job.json")).err, run.err);
 }
 
+TEST(BadIntents, FilesThatAreNoJobsAreNamedForWhatTheyAre) {
+  const Folder folder;
+  write(folder / "half.json", R"({ "blends": { )");
+  write(folder / "none.json", " ");
+  for (const auto& [file, words] : std::vector<std::pair<std::string, std::string>>{
+           {"half.json", "line 1, "}, {"none.json", "is empty"}}) {
+    const Outcome run =
+        run_program("fit " + quoted_path(folder / file) + " -o " + quoted_path(folder / "out.json"));
+    EXPECT_EQ(run.code, 3) << file;
+    EXPECT_THAT(run.err, HasSubstr(words));
+  }
+  EXPECT_EQ(run_program("fit " + quoted_path(folder / "nowhere.json")).code, 5);
+  EXPECT_FALSE(fs::exists(folder / "out.json"));
+}
+
 TEST(BadIntents, JobsWithoutIntentAreToldHowToGiveOne) {
   const std::string job =
       quoted_path(fs::path(BLENDWRIGHT_SOURCE_DIR) / "examples/specs/coaxial-cylinders.json");

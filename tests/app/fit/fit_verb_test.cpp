@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "app/json/fit_report.hpp"
 #include "app/json/job_reader.hpp"
 #include "app/json/json_value.hpp"
@@ -38,6 +40,13 @@ Fitted fitted(const std::string& name, int threads = 1) {
   return {text, job, run_fit_job(text, job, options)};
 }
 
+/// An example, fitted once for all tests.
+const Fitted& fitted_example(const std::string& name) {
+  static std::map<std::string, Fitted> known;
+  const auto at = known.find(name);
+  return at != known.end() ? at->second : known.emplace(name, fitted(name)).first->second;
+}
+
 double largest_distance(const OdeBlend& a, const OdeBlend& b) {
   double worst = 0.0;
   for (int i = 0; i <= 10; ++i)
@@ -51,7 +60,7 @@ double largest_distance(const OdeBlend& a, const OdeBlend& b) {
 class FitExamples : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FitExamples, AreFulfilledAndReproducedByTheJobThatIsWritten) {
-  const Fitted f = fitted(GetParam());
+  const Fitted& f = fitted_example(GetParam());
   EXPECT_TRUE(f.result.fulfilled());
   EXPECT_TRUE(verified(f.result.verified));
   ASSERT_EQ(f.result.blends.size(), 1u);
@@ -71,7 +80,7 @@ TEST_P(FitExamples, AreFulfilledAndReproducedByTheJobThatIsWritten) {
 }
 
 TEST_P(FitExamples, KeepWhatWasTyped) {
-  const Fitted f = fitted(GetParam());
+  const Fitted& f = fitted_example(GetParam());
   const std::string& text = f.result.text;
   EXPECT_EQ(text.substr(0, text.find("\"blends\"")), f.text.substr(0, f.text.find("\"blends\"")));
   const std::size_t fit = f.text.find("\"fit\": {");
@@ -86,8 +95,50 @@ INSTANTIATE_TEST_SUITE_P(All, FitExamples, ::testing::ValuesIn(examples), [](con
   return name;
 });
 
+/// Whatever was free, the job that is written is the blend that was found.
+class FitUnknownsOfAJob : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(FitUnknownsOfAJob, AreWrittenSoThatTheyAreReadBack) {
+  const auto [name, fit] = GetParam();
+  const fs::path file = specs() / (std::string(name) + ".json");
+  std::string text = content(file);
+  const std::size_t from = text.find("\"from\"");
+  ASSERT_NE(from, std::string::npos);
+  text.insert(from, std::string("\"fit\": ") + fit + ",\n      ");
+  const JobSpec job = read_job(text, file);
+  FitJobOptions options;
+  options.folder = job.folder;
+  const FitJobResult result = run_fit_job(text, job, options);
+  const FittedBlend& blend = result.blends.at(0);
+  EXPECT_LE(blend.fit.costs.back(), blend.fit.costs.front());
+  JobSpec direct = job;
+  direct.blends[0] = blend.after;
+  const JobResult found = run_job(direct), start = run_job(job);
+  const OdeBlend& written = result.verified.blends[0].blend.surface;
+  EXPECT_LE(largest_distance(written, found.blends[0].blend.surface), 1e-12);
+  EXPECT_GT(largest_distance(written, start.blends[0].blend.surface), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Jobs, FitUnknownsOfAJob,
+    ::testing::Values(
+        std::pair{"coaxial-cylinders",
+                  R"({ "objectives": [{ "kind": "thin_plate" }, { "kind": "no_fold" }],
+                       "unknowns": { "tangent_angle": true, "correspondence": 3, "magnitudes": [1, 3] } })"},
+        std::pair{
+            "leaning-cylinder",
+            R"({ "objectives": [{ "kind": "thin_plate" }], "unknowns": { "tension_per_component": true } })"},
+        std::pair{
+            "leaning-cylinder",
+            R"({ "objectives": [{ "kind": "thin_plate" }, { "kind": "largest_curvature", "least_radius": 0.2 }],
+                       "unknowns": { "coefficients": true, "magnitudes": 0 } })"},
+        std::pair{"open-blend", R"({ "objectives": [{ "kind": "curvature_variation" }], "starts": 2 })"},
+        std::pair{"step-transition", R"({ "objectives": [{ "kind": "thin_plate" }] })"},
+        std::pair{"fig1a-eq8",
+                  R"({ "objectives": [{ "kind": "thin_plate" }], "unknowns": { "coefficients": true } })"}));
+
 TEST(Fit, GivesTheRadiusOfTheBallAlongTheWholeTrimline) {
-  const Fitted f = fitted("fit-rolling-ball");
+  const Fitted& f = fitted_example("fit-rolling-ball");
   const OdeBlend& blend = f.result.verified.blends[0].blend.surface;
   for (int j = 0; j < 500; ++j) {  // other places than the fit's
     const SurfaceJet s = blend.jet({0.5, blend.domain().v.at((j + 0.31) / 500.0)});
@@ -96,7 +147,7 @@ TEST(Fit, GivesTheRadiusOfTheBallAlongTheWholeTrimline) {
 }
 
 TEST(Fit, IsTheSameForAnyNumberOfThreads) {
-  EXPECT_EQ(fitted("fit-clearance", 1).result.text, fitted("fit-clearance", 2).result.text);
+  EXPECT_EQ(fitted_example("fit-clearance").result.text, fitted("fit-clearance", 2).result.text);
 }
 
 TEST(Fit, IsIgnoredByVerify) {
@@ -128,6 +179,16 @@ TEST(FitVerb, WritesJobPlotAndReport) {
   const Outcome again = run_program("fit --json " + quoted_path(folder / "fitted.json"));
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(run_program("verify --quiet " + quoted_path(folder / "fitted.json")).code, 0);
+}
+
+TEST(FitVerb, NamesFilesFromWhereTheFittedJobLies) {
+  const Folder folder;
+  const std::string fitted_file = quoted_path(folder / "deep/fitted.json");
+  const Outcome run = run_program("fit " + quoted_path(specs() / "step-transition.json") +
+                                  " --objective thin_plate --quiet -o " + fitted_file);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(content(folder / "deep/fitted.json"), Not(HasSubstr("\"parts/two-bodies.step\"")));
+  EXPECT_EQ(run_program("verify --quiet " + fitted_file).code, 0);
 }
 
 TEST(FitVerb, PrintsAReportThatItsSchemaAccepts) {

@@ -239,8 +239,8 @@ TEST(JobWriter, WritesWhatIsReadBackToTheLastBit) {
         written += after != text;
         radians += after.find("_rad") != std::string::npos;
       },
-      2000);
-  EXPECT_GT(written, 1000);
+      600);
+  EXPECT_GT(written, 300);
   EXPECT_GT(radians, 5);  // angles that no number of degrees stands for occur
 }
 
