@@ -16,3 +16,11 @@ for job in specs/*.json; do
   cp "$work/$name.png" gallery/
 done
 cp "$work/branch-to-main.errors.png" gallery/
+
+# The viewer's window: events are replayed in it.
+cat >"$work/view.txt" <<EOF
+key 2
+click 700 600
+screenshot $PWD/gallery/view.png
+EOF
+"$program" view specs/branch-to-main.json --script "$work/view.txt" --width 1000 --height 750 >"$work/view.states"

@@ -24,6 +24,8 @@ std::span<const VerbInfo> verbs_table() {
        "blendwright collide arm.json part.json --motion path.csv -o contacts.csv"},
       {"picture", "draw a job, a scene, a STEP file or a mesh, coloured by what is to be judged",
        "blendwright picture joint.json -o joint.png --show zebra"},
+      {"view", "show files in a window: errors as colours, points to pick, two files side by side",
+       "blendwright view joint.json"},
       {"inspect", "list the faces and edges of a STEP file, with selectors to paste into a job",
        "blendwright inspect part.step"},
       {"list", "list what a job or a scene may choose from", "blendwright list primaries"},
@@ -88,6 +90,7 @@ int run(int argc, char** argv) {
   add_relate(app, program);
   add_collide(app, program);
   add_picture(app, program);
+  add_view(app, program);
   add_inspect(app, program);
   add_list(app, program);
   add_schema(app, program);

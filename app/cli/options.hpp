@@ -62,5 +62,6 @@ void add_offset(CLI::App& app, Program& program);
 void add_relate(CLI::App& app, Program& program);
 void add_collide(CLI::App& app, Program& program);
 void add_picture(CLI::App& app, Program& program);
+void add_view(CLI::App& app, Program& program);
 
 }  // namespace blendwright

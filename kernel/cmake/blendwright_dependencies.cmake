@@ -9,7 +9,8 @@ find_package(CLI11 REQUIRED)                     # the command line
 find_package(OpenCASCADE REQUIRED)               # B-rep and STEP
 find_package(VTK REQUIRED COMPONENTS             # mesh files and pictures; each further component may want more packages
   CommonCore CommonDataModel CommonExecutionModel FiltersCore IOXML IOImage
-  RenderingCore RenderingOpenGL2 RenderingFreeType)
+  RenderingCore RenderingOpenGL2 RenderingFreeType
+  RenderingUI FiltersGeometry)                   # the viewer's window only
 if(BLENDWRIGHT_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
