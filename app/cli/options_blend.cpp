@@ -22,6 +22,7 @@ void add_fairness(CLI::App* sub, bool& fairness, std::string& pull) {
 
 void add_blend(CLI::App& app, Program& program) {
   const auto command = std::make_shared<BlendCommand>();
+  command->called = program.called;
   std::vector<std::string> formats;
   for (const auto& c : format_choices()) formats.emplace_back(c.name);
   CLI::App* sub = verb(app, "blend");
@@ -48,6 +49,7 @@ void add_blend(CLI::App& app, Program& program) {
 
 void add_verify(CLI::App& app, Program& program) {
   const auto command = std::make_shared<VerifyCommand>();
+  command->called = program.called;
   CLI::App* sub = verb(app, "verify");
   sub->add_option("JOB", command->job, "job file; - reads standard input")->required();
   optional_number(sub, "--tol-position", command->position, "largest gap, model units", positive());

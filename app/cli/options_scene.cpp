@@ -38,6 +38,7 @@ void add_meshing(CLI::App* sub, MeshCommand& command) {
 
 void add_mesh(CLI::App& app, Program& program) {
   const auto command = std::make_shared<MeshCommand>();
+  command->called = program.called;
   CLI::App* sub = verb(app, "mesh");
   add_meshing(sub, *command);
   add_report(sub, command->report);
