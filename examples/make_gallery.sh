@@ -17,6 +17,24 @@ for job in specs/*.json; do
 done
 cp "$work/branch-to-main.errors.png" gallery/
 
+# What `picture` shows: input, mode, further words.
+mkdir -p gallery/pictures
+pictures='
+specs/branch-to-main zebra
+specs/coaxial-cylinders isophotes
+specs/branch-to-main comb
+specs/branch-to-main curvature
+specs/step-transition draft
+scenes/s0-12ab field --plane z=0
+'
+while read -r input show words; do
+  # shellcheck disable=SC2086
+  "$program" picture "$input.json" --show "$show" $words --size 640x480 --force --quiet \
+    -o "gallery/pictures/$(basename "$input").$show.png"
+done <<<"$(sed '/^$/d' <<<"$pictures")"
+"$program" picture specs/varying-magnitude.json --show trimlines --size 1280x760 --force --quiet \
+  -o gallery/pictures/varying-magnitude.trimlines.png
+
 # The viewer's window: events are replayed in it.
 cat >"$work/view.txt" <<EOF
 key 2

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 using Role = PicturePart::Role;
 
 constexpr double built = 0.8;   // of the progress, by the time that a job is built
-constexpr double chord = 5e-4;  // of the size: triangles of CAD faces
-constexpr Radians facet_turn = degrees(5.0);
+constexpr double chord = 1e-3;  // of the size: triangles of CAD faces
+constexpr Radians facet_turn = degrees(7.5);
 
 double size_of(const std::vector<TriMesh>& meshes) {
   Vec3 lo = Vec3::Constant(std::numeric_limits<double>::max()), hi = -lo;
@@ -50,18 +50,6 @@ void turn(TriMesh& mesh) {
   make_convex_positive(mesh);
 }
 
-/// Whether the mesh has its normals on the other side than the face that it lies on.
-bool turned_against(const TriMesh& mesh, const TriMesh& face) {
-  if (mesh.points.empty() || face.points.empty()) return false;
-  const std::size_t middle = mesh.points.size() / 2;
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < face.points.size(); ++i)
-    if ((face.points[i] - mesh.points[middle]).squaredNorm() <
-        (face.points[nearest] - mesh.points[middle]).squaredNorm())
-      nearest = i;
-  return mesh.normals[middle].dot(face.normals[nearest]) < 0.0;
-}
-
 void add_units(TriMesh& mesh, LengthUnit unit) {
   const std::string length = name(unit);
   for (Column& c : mesh.columns) {
@@ -70,57 +58,70 @@ void add_units(TriMesh& mesh, LengthUnit unit) {
   }
 }
 
-/// Six times the volume under the triangles seen from the middle of all: negative when normals point inward.
+/// Six times the volume under the triangles of each mesh, seen from its own middle: 0 for planes, negative
+/// when the normals of what is round point inward.
 double signed_volume(const std::vector<TriMesh>& meshes) {
-  Vec3 middle = Vec3::Zero();
-  double count = 0.0;
-  for (const TriMesh& mesh : meshes)
-    for (const Vec3& p : mesh.points) {
-      middle += p;
-      count += 1.0;
-    }
-  if (count > 0.0) middle /= count;
   double volume = 0.0;
-  for (const TriMesh& mesh : meshes)
+  for (const TriMesh& mesh : meshes) {
+    Vec3 middle = Vec3::Zero();
+    double area = 0.0;
+    for (const auto& t : mesh.triangles) {
+      const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+      const double part = (b - a).cross(c - a).norm();
+      middle += part * (a + b + c) / 3.0;
+      area += part;
+    }
+    if (area > 0.0) middle /= area;
     for (const auto& t : mesh.triangles)
       volume +=
           (mesh.points[t[0]] - middle).dot((mesh.points[t[1]] - middle).cross(mesh.points[t[2]] - middle));
+  }
   return volume;
+}
+
+bool is_blend(const JobResult& result, const std::string& name) {
+  return std::any_of(result.blends.begin(), result.blends.end(),
+                     [&](const BlendResult& b) { return b.entry.name == name; });
+}
+
+/// The trimmed primaries; blends are turned to the side that the joined shape has them on.
+std::vector<TriMesh> joined_primaries(const JobResult& result, std::vector<TriMesh>& blends) {
+  const AssemblyResult joined = assemble(assembly_of(result), result.job.tolerance.position);
+  std::vector<TriMesh> primaries =
+      tessellate(joined.shape, chord * size_of(blends), facet_turn,
+                 [&](const std::string& name) { return !is_blend(result, name); });
+  for (const FaceSide& side : sides_of_faces(joined.shape))
+    for (TriMesh& blend : blends)
+      if (blend.name == side.name && side.reversed) turn(blend);
+  if (signed_volume(primaries) < 0.0) {  // an open shell may have either side outside
+    for (TriMesh& mesh : primaries) turn(mesh);
+    for (TriMesh& mesh : blends) turn(mesh);
+  }
+  return primaries;
 }
 
 void add_job_parts(PictureInput& input, bool primaries) {
   const JobResult& result = *input.job;
-  std::vector<TriMesh> blends, faces;
+  std::vector<TriMesh> blends, others;
   for (const BlendResult& b : result.blends) {
     blends.push_back(blend_mesh(b, result.job.unit));
     for (PolyLine& line : trimline_lines(b, result.job.unit)) input.lines.push_back(std::move(line));
   }
   if (primaries) {
     try {
-      const AssemblyResult joined = assemble(assembly_of(result), result.job.tolerance.position);
-      faces = tessellate(joined.shape, chord * size_of(blends), facet_turn);
-      if (signed_volume(faces) < 0.0)  // an open shell may have either side outside
-        for (TriMesh& face : faces) turn(face);
+      others = joined_primaries(result, blends);
     } catch (const GeometryError& e) {
       input.notes.push_back(std::string("without the primaries: ") + e.what());
     }
   }
   for (std::size_t i = 0; i < blends.size(); ++i) {
-    for (const TriMesh& face : faces)
-      if (face.name == blends[i].name && turned_against(blends[i], face)) {
-        turn(blends[i]);
-        break;
-      }
     make_convex_positive(blends[i]);
     input.parts.push_back({Role::blend, std::move(blends[i]), Surface(result.blends[i].fit.surface)});
   }
-  for (TriMesh& face : faces) {
-    const bool blend = std::any_of(result.blends.begin(), result.blends.end(),
-                                   [&](const BlendResult& b) { return b.entry.name == face.name; });
-    if (blend) continue;
-    add_units(face, result.job.unit);
-    make_convex_positive(face);
-    input.parts.push_back({Role::primary, std::move(face), {}});
+  for (TriMesh& mesh : others) {
+    add_units(mesh, result.job.unit);
+    make_convex_positive(mesh);
+    input.parts.push_back({Role::primary, std::move(mesh), {}});
   }
 }
 

@@ -15,9 +15,8 @@ namespace {
 
 using Role = PicturePart::Role;
 
-constexpr double see_through = 0.45;   // opacity of surfaces that combs stand on
 constexpr double outlier_part = 0.02;  // of the values at each end that may lie beyond the bar
-constexpr double outlier_ratio = 4.0;  // how far the extremes must be beyond the others to be left out
+constexpr double outlier_ratio = 1.0;  // how far the extremes must be beyond the others to be left out
 const Colour blend_colour{0.90, 0.55, 0.15}, primary_colour{0.72, 0.75, 0.80}, other_colour{0.80, 0.72, 0.58};
 
 Colour colour_of(Role role) {
@@ -39,7 +38,8 @@ std::string with_unit(const std::string& figure, const std::string& unit) {
 /// Three digits, or an exponent where that is shorter.
 std::string figure_text(double x) {
   const double size = std::abs(x);
-  return size == 0.0 || (size >= 1e-3 && size < 1e5) ? number_text(x, 3) : scientific_text(x);
+  if (size == 0.0) return "0";
+  return size >= 1e-3 && size < 1e5 ? number_text(x, 3) : scientific_text(x);
 }
 
 /// Errors below the rounding of any length are told as 0.
@@ -129,8 +129,8 @@ std::vector<double> shown_values(const Picture& picture, bool magnitudes) {
 }
 
 std::string range_text(const PictureFigure& f) {
-  return with_unit(
-      f.least == f.most ? figure_text(f.most) : figure_text(f.least) + " to " + figure_text(f.most), f.unit);
+  const std::string least = figure_text(f.least), most = figure_text(f.most);
+  return with_unit(least == most ? most : least + " to " + most, f.unit);
 }
 
 PictureFigure figure_of(const PictureJob& job, const std::vector<double>& values) {
@@ -231,7 +231,6 @@ void add_comb(PicturePlan& plan, const PictureInput& input, const PictureJob& jo
     picture.length_bar =
         LengthBar{comb.scale * comb.shown, "hair of " + with_unit(figure_text(comb.shown), per_length)};
   picture.caption = comb.inward ? "hairs stand out where hollow" : "hairs stand out where convex";
-  for (PictureMesh& m : picture.meshes) m.opacity = see_through;
   if (job.dark) comb.hairs.edge_colour = picture.keys[0].colour = {0.45, 0.68, 0.95};
   picture.meshes.push_back(std::move(comb.hairs));
   picture.meshes.push_back(std::move(comb.envelope));
@@ -333,11 +332,10 @@ ColourScale scale_of(const PictureJob& job, std::vector<double> values) {
   const bool rises = axis.ticks.front().value < axis.ticks.back().value;
   Tick &low = rises ? axis.ticks.front() : axis.ticks.back(),
        &high = rises ? axis.ticks.back() : axis.ticks.front();
-  const double symmetric =
-      rule == ScaleRule::diverging ? std::max(std::abs(all.least), std::abs(all.most)) : 0.0;
-  if (!axis.logarithmic && (cut_high || symmetric > 0.0) && all.most > axis.hi) high.label.insert(0, "> ");
-  if (!axis.logarithmic && all.least < axis.lo) low.label.insert(0, "< ");
-  if (axis.logarithmic && all.most > std::pow(10.0, axis.hi)) high.label.insert(0, "> ");
+  const auto value = [&](double end) { return axis.logarithmic ? std::pow(10.0, end) : end; };
+  const double rounding = 1e-9 * std::max(std::abs(all.least), std::abs(all.most));
+  if (all.most > value(axis.hi) + rounding) high.label.insert(0, "> ");
+  if (!axis.logarithmic && all.least < axis.lo - rounding) low.label.insert(0, "< ");
   return {scale.map(), std::move(axis)};
 }
 

@@ -2,11 +2,13 @@
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/occt_surface.hpp"
@@ -66,16 +68,39 @@ TriMesh mesh_of(const TopoDS_Face& face, const std::string& name) {
 }  // namespace
 
 std::vector<TriMesh> tessellate(const Shape& shape, double chord, Radians angle) {
+  return tessellate(shape, chord, angle, [](const std::string&) { return true; });
+}
+
+std::vector<TriMesh> tessellate(const Shape& shape, double chord, Radians angle,
+                                const std::function<bool(const std::string& name)>& wanted) {
   return detail::guarded<GeometryError>("triangles of the shape", [&] {
+    TopoDS_Compound faces;
+    const BRep_Builder builder;
+    builder.MakeCompound(faces);
+    std::vector<std::string> names;
+    std::size_t i = 0;
+    for (TopExp_Explorer f(shape.impl().shape, TopAbs_FACE); f.More(); f.Next(), ++i) {
+      if (!wanted(shape.impl().faces[i].name)) continue;
+      builder.Add(faces, f.Current());
+      names.push_back(shape.impl().faces[i].name);
+    }
     // Triangles are stored in the shape: a copy takes them, the value stays as it is.
-    BRepBuilderAPI_Copy copy(shape.impl().shape);
+    BRepBuilderAPI_Copy copy(faces);
     const BRepMesh_IncrementalMesh mesher(copy.Shape(), chord, false, angle.value, false);
     std::vector<TriMesh> meshes;
-    std::size_t i = 0;
+    i = 0;
     for (TopExp_Explorer f(copy.Shape(), TopAbs_FACE); f.More(); f.Next(), ++i)
-      meshes.push_back(mesh_of(TopoDS::Face(f.Current()), shape.impl().faces[i].name));
+      meshes.push_back(mesh_of(TopoDS::Face(f.Current()), names[i]));
     return meshes;
   });
+}
+
+std::vector<FaceSide> sides_of_faces(const Shape& shape) {
+  std::vector<FaceSide> sides;
+  std::size_t i = 0;
+  for (TopExp_Explorer f(shape.impl().shape, TopAbs_FACE); f.More(); f.Next(), ++i)
+    sides.push_back({shape.impl().faces[i].name, f.Current().Orientation() == TopAbs_REVERSED});
+  return sides;
 }
 
 }  // namespace blendwright

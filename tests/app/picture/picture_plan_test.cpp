@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/pipeline/picture_comb.hpp"
 #include "app/pipeline/picture_deviation.hpp"
 #include "app/pipeline/picture_views.hpp"
@@ -66,6 +68,13 @@ TEST(PicturePlan, ConvexSidesHavePositiveCurvatureWhereverTheyComeFrom) {
   }
   EXPECT_EQ(found, 2u);
   EXPECT_EQ(job.picture->scale->map(), ColourMap::diverging);
+  // A large plate through the post decides nothing.
+  const PictureInput post = read_picture_input(example("specs/leaning-cylinder.json"), {});
+  for (const PicturePart& part : post.parts) {
+    if (part.role != PicturePart::Role::primary) continue;
+    const std::vector<double>& mean = find_column(part.mesh, "mean_curvature")->values;
+    EXPECT_GE(*std::min_element(mean.begin(), mean.end()), -1e-9) << part.mesh.name;
+  }
   // A rounded solid is convex almost everywhere.
   const PicturePlan scene = plan_picture(of_file("scenes/s0-1a.json", Show::curvature));
   EXPECT_GT(scene.figure->most, std::abs(scene.figure->least));
