@@ -22,6 +22,8 @@ std::span<const VerbInfo> verbs_table() {
        "blendwright relate part.json box.json"},
       {"collide", "say whether bodies touch, as they stand or along a motion",
        "blendwright collide arm.json part.json --motion path.csv -o contacts.csv"},
+      {"compare", "say how far two results are from each other: jobs, STEP files, meshes",
+       "blendwright compare joint.json out/joint.step --limit 1e-6"},
       {"picture", "draw a job, a scene, a STEP file or a mesh, coloured by what is to be judged",
        "blendwright picture joint.json -o joint.png --show zebra"},
       {"view", "show files in a window: errors as colours, points to pick, two files side by side",
@@ -89,6 +91,7 @@ int run(int argc, char** argv) {
   add_offset(app, program);
   add_relate(app, program);
   add_collide(app, program);
+  add_compare(app, program);
   add_picture(app, program);
   add_view(app, program);
   add_inspect(app, program);

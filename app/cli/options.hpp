@@ -61,6 +61,7 @@ void add_eval(CLI::App& app, Program& program);
 void add_offset(CLI::App& app, Program& program);
 void add_relate(CLI::App& app, Program& program);
 void add_collide(CLI::App& app, Program& program);
+void add_compare(CLI::App& app, Program& program);
 void add_picture(CLI::App& app, Program& program);
 void add_view(CLI::App& app, Program& program);
 

@@ -114,6 +114,16 @@ struct CollideCommand {
 /// Says whether bodies touch, as they stand or along a motion.
 [[nodiscard]] int collide(const CollideCommand& command, const Console& console);
 
+struct CompareCommand {
+  std::string first, second;  ///< "-": standard input, for one of them
+  std::string output;         ///< empty: none
+  std::optional<double> limit;
+  bool force = false, json = false, quiet = false;
+  std::optional<int> threads;
+};
+/// Says how far two results are from each other.
+[[nodiscard]] int compare(const CompareCommand& command, const Console& console);
+
 struct PictureCommand {
   std::string input, output, show;  ///< input "-": standard input; show empty: what the input is about
   std::string to, solid, plane, range, pull, light, from, box;

@@ -1,36 +1,89 @@
-#define BOOST_ALLOW_DEPRECATED_HEADERS  // some of Boost.Geometry's own headers include others that say so
 #include "kernel/mesh/mesh_distance.hpp"
 
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
-#include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "kernel/base/error.hpp"
 
 namespace blendwright {
 namespace {
 
-namespace bg = boost::geometry;
-using Corner = bg::model::point<double, 3, bg::cs::cartesian>;
-using TreeBox = bg::model::box<Corner>;
-using Entry = std::pair<TreeBox, std::uint32_t>;
-using Tree = bg::index::rtree<Entry, bg::index::rstar<8>>;
 using Edge = std::array<std::uint32_t, 2>;
 
 Edge sorted(std::uint32_t a, std::uint32_t b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
-/// Squared distance to a box, less what rounding may have added to it.
-double least_squared(const TreeBox& box, const Vec3& q) {
-  const Vec3 lo(bg::get<0>(box.min_corner()), bg::get<1>(box.min_corner()), bg::get<2>(box.min_corner()));
-  const Vec3 hi(bg::get<0>(box.max_corner()), bg::get<1>(box.max_corner()), bg::get<2>(box.max_corner()));
-  const Vec3 out = (lo - q).cwiseMax(q - hi).cwiseMax(0.0);
-  return out.squaredNorm() * (1.0 - 8.0 * std::numeric_limits<double>::epsilon());
-}
+/// A box of the tree. Children of an inner one follow each other, `first` is the left; a leaf has `count`
+/// triangles from `first` on.
+struct TreeBox {
+  Vec3 lo, hi;
+  std::uint32_t first = 0, count = 0;
+  /// Squared distance, less what rounding may have added to it.
+  [[nodiscard]] double least_squared(const Vec3& q) const {
+    const Vec3 out = (lo - q).cwiseMax(q - hi).cwiseMax(0.0);
+    return out.squaredNorm() * (1.0 - 8.0 * std::numeric_limits<double>::epsilon());
+  }
+};
+
+constexpr std::uint32_t leaf = 4;
+
+/// Halves at the median of the triangles' middles along the longest side of the box of these. A tree of
+/// nearest-neighbour queries: Boost's R-tree sorts all that it has seen at every step, 100 times as slow.
+class TreeMaker {
+ public:
+  TreeMaker(const TriMesh& mesh, std::vector<std::uint32_t>& order) : mesh_(mesh), order_(order) {
+    order_.resize(mesh.triangles.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    boxes_.resize(1);
+    split(0, 0, static_cast<std::uint32_t>(order_.size()));
+  }
+  [[nodiscard]] std::vector<TreeBox> take() { return std::move(boxes_); }
+
+ private:
+  [[nodiscard]] Vec3 middle(std::uint32_t t) const {
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t k : mesh_.triangles[t]) sum += mesh_.points[k] / 3.0;
+    return sum;
+  }
+  void split(std::size_t at, std::uint32_t begin, std::uint32_t end) {
+    TreeBox box;
+    box.lo = Vec3::Constant(std::numeric_limits<double>::infinity());
+    box.hi = -box.lo;
+    Vec3 low = box.lo, high = box.hi;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      for (const std::uint32_t k : mesh_.triangles[order_[i]]) {
+        box.lo = box.lo.cwiseMin(mesh_.points[k]);
+        box.hi = box.hi.cwiseMax(mesh_.points[k]);
+      }
+      const Vec3 m = middle(order_[i]);
+      low = low.cwiseMin(m), high = high.cwiseMax(m);
+    }
+    if (end - begin <= leaf) {
+      box.first = begin, box.count = end - begin;
+      boxes_[at] = box;
+      return;
+    }
+    Eigen::Index axis = 0;
+    (high - low).maxCoeff(&axis);
+    const std::uint32_t half = begin + (end - begin) / 2;
+    std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       const double x = middle(a)[axis], y = middle(b)[axis];
+                       return x != y ? x < y : a < b;
+                     });
+    const std::size_t children = boxes_.size();
+    boxes_.resize(children + 2);
+    box.first = static_cast<std::uint32_t>(children);
+    boxes_[at] = box;
+    split(children, begin, half);
+    split(children + 1, half, end);
+  }
+  const TriMesh& mesh_;
+  std::vector<std::uint32_t>& order_;
+  std::vector<TreeBox> boxes_;
+};
 
 /// On the segment a + t (b - a): the weight t.
 double on_segment(const Vec3& a, const Vec3& b, const Vec3& q) {
@@ -47,7 +100,8 @@ double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
 
 struct MeshTree::Impl {
   TriMesh mesh;
-  Tree tree;
+  std::vector<TreeBox> boxes;                          ///< the first is the whole
+  std::vector<std::uint32_t> order;                    ///< the triangles, leaf by leaf
   std::map<Edge, std::array<std::uint32_t, 2>> edges;  ///< the triangles; the second as the first at a border
   std::vector<Vec3> corner_normals;
   bool oriented = true;
@@ -92,8 +146,6 @@ MeshTree::MeshTree(TriMesh mesh) {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite())
       throw InputError("point " + std::to_string(i), "is not finite, must be numbers");
-  std::vector<Entry> entries;
-  entries.reserve(impl->mesh.triangles.size());
   impl->corner_normals.assign(points.size(), Vec3::Zero());
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   std::map<Edge, int> uses;  // how often an edge is run through from its lower to its higher point, less back
@@ -108,7 +160,6 @@ MeshTree::MeshTree(TriMesh mesh) {
     const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
     const Vec3 lo = a.cwiseMin(b).cwiseMin(c), hi = a.cwiseMax(b).cwiseMax(c);
     low = low.cwiseMin(lo), high = high.cwiseMax(hi);
-    entries.emplace_back(TreeBox(Corner(lo.x(), lo.y(), lo.z()), Corner(hi.x(), hi.y(), hi.z())), index);
     const Vec3 n = (b - a).cross(c - a).normalized();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t here = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
@@ -123,7 +174,7 @@ MeshTree::MeshTree(TriMesh mesh) {
       if (std::abs(turns) > 1) impl->oriented = false;
     }
   }
-  impl->tree = Tree(entries);  // packed: all entries at once
+  impl->boxes = TreeMaker(impl->mesh, impl->order).take();
   impl->size = (high - low).norm();
   impl_ = std::move(impl);
 }
@@ -146,15 +197,27 @@ MeshFoot MeshTree::closest_on(std::uint32_t triangle, const Vec3& q) const {
 MeshFoot MeshTree::closest(const Vec3& q) const {
   MeshFoot best;
   best.distance = std::numeric_limits<double>::infinity();
-  const Corner at(q.x(), q.y(), q.z());
-  const auto count = static_cast<unsigned>(impl_->tree.size());
-  // Boxes come in the order of their distance: none behind one that is further than the best holds a better.
-  for (auto entry = impl_->tree.qbegin(bg::index::nearest(at, count)); entry != impl_->tree.qend(); ++entry) {
-    if (least_squared(entry->first, q) > best.distance * best.distance) break;
-    const MeshFoot foot = closest_on(entry->second, q);
-    // Of equally near triangles always the same one, whatever the order of their boxes.
-    if (foot.distance < best.distance || (foot.distance == best.distance && foot.triangle < best.triangle))
-      best = foot;
+  std::array<std::pair<std::uint32_t, double>, 128> open;  // halving 2^32 triangles needs half of that
+  std::size_t count = 0;
+  open[count++] = {0, impl_->boxes[0].least_squared(q)};
+  while (count > 0) {
+    const auto [at, least] = open[--count];
+    if (least > best.distance * best.distance) continue;
+    const TreeBox& box = impl_->boxes[at];
+    if (box.count == 0) {
+      const double left = impl_->boxes[box.first].least_squared(q),
+                   right = impl_->boxes[box.first + 1].least_squared(q);
+      const std::uint32_t nearer = left <= right ? 0 : 1;
+      open[count++] = {box.first + 1 - nearer, std::max(left, right)};
+      open[count++] = {box.first + nearer, std::min(left, right)};
+      continue;
+    }
+    for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
+      const MeshFoot foot = closest_on(impl_->order[i], q);
+      // Of equally near triangles always the first.
+      if (foot.distance < best.distance || (foot.distance == best.distance && foot.triangle < best.triangle))
+        best = foot;
+    }
   }
   return best;
 }
