@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/pipeline/boundary_strip.hpp"
+#include "app/pipeline/build_blend.hpp"
 #include "app/pipeline/build_primaries.hpp"
 #include "app/pipeline/second_surfaces.hpp"
 #include "kernel/base/number_text.hpp"
@@ -69,39 +70,6 @@ std::string job_where(std::string where) {
   return where;
 }
 
-Blend build_blend(const BlendEntry& entry, const JobSpec& job, const std::vector<BuiltPrimary>& primaries,
-                  std::vector<std::string>& warnings) {
-  const std::string pointer = "/blends/" + entry.name;
-  try {
-    auto lines = build_trimlines(entry, job, primaries, pointer);
-    if (entry.literal()) {
-      std::array<std::optional<Trimline>, 2> on_v;
-      for (std::size_t i = 0; i < 2; ++i)
-        if (lines[i]) on_v[i] = lines[i]->line;
-      return build_literal(entry, job, std::move(on_v), pointer);
-    }
-    BlendSpec spec{{entry.sides[0].side, entry.sides[1].side}, entry.correspondence, entry.shape};
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (spec.sides[i].keep == SideSpec::Keep::automatic && lines[i]->keep)
-        spec.sides[i].keep = *lines[i]->keep;
-      if (lines[i]->edge_deviation > job.tolerance.position)
-        warnings.push_back(pointer + "/" + side_names[i] + "/trimline: the part's edge is up to " +
-                           number_text(lines[i]->edge_deviation, 3) + " " + name(job.unit) +
-                           " away from its face; the blend starts on the face");
-    }
-    return make_blend(lines[0]->line, lines[1]->line, spec, job.tolerance.position);
-  } catch (const InputError& e) {
-    std::vector<Problem> problems = e.problems();
-    for (Problem& p : problems)
-      if (p.where.empty() || p.where.front() != '/')
-        p.where = pointer + (p.where.empty() ? "" : "/") + job_where(p.where);
-    throw InputError(std::move(problems));
-  } catch (const GeometryError& e) {
-    const std::string text = e.what();
-    throw GeometryError(text.rfind("/blends/", 0) == 0 ? text : pointer + ": " + text);
-  }
-}
-
 /// Literal data leave the kept part of primary 0 and enter that of primary 1, by definition; along the line
 /// the majority decides, since typed tangents need not be good ones.
 bool literal_keeps_left(const Trimline& line, const EndCondition& end, std::size_t side) {
@@ -135,26 +103,6 @@ bool from_step_edge(const BlendSideEntry& side) {
   return side.trimline && (side.trimline->kind == Kind::edge || side.trimline->kind == Kind::edge_chain);
 }
 
-/// Two trimlines of one primary must not cross: nothing of the primary would stay between them. Lines from
-/// the edges of a part are its own and do not.
-void refuse_crossings(const std::vector<BlendResult>& blends, const BlendResult& added) {
-  for (const BlendResult& other : blends)
-    for (std::size_t i = 0; i < 2; ++i)
-      for (std::size_t k = 0; k < 2; ++k) {
-        const BlendSideEntry &a = other.entry.sides[i], &b = added.entry.sides[k];
-        if (a.primary != b.primary || a.primary.empty() || from_step_edge(a) || from_step_edge(b)) continue;
-        if (!other.blend.trimlines[i] || !added.blend.trimlines[k]) continue;
-        const auto found = crossing(*other.blend.trimlines[i], *added.blend.trimlines[k]);
-        if (!found) continue;
-        const auto text = [](double x) { return number_text(x, 4); };
-        throw GeometryError("/blends/" + added.entry.name + "/" + side_names[k] +
-                            "/trimline: crosses the trimline /blends/" + other.entry.name + "/" +
-                            side_names[i] + " on primary \"" + a.primary + "\" at v = " + text(found->v1) +
-                            " (" + text(found->point[0]) + ", " + text(found->point[1]) + ", " +
-                            text(found->point[2]) + "); move one of them");
-      }
-}
-
 BlendFit fit(const BlendEntry& entry, const OdeBlend& blend, const JobSpec& job,
              const Progress& progress) try {
   return fit_blend(blend, fit_options(job.tolerance), Progress{.stop = progress.stop});
@@ -166,6 +114,76 @@ BlendFit fit(const BlendEntry& entry, const OdeBlend& blend, const JobSpec& job,
 
 }  // namespace
 
+BuiltBlend build_blend(const BlendEntry& entry, const JobSpec& job,
+                       const std::vector<BuiltPrimary>& primaries, std::vector<std::string>& warnings) {
+  const std::string pointer = "/blends/" + entry.name;
+  try {
+    auto lines = build_trimlines(entry, job, primaries, pointer);
+    if (entry.literal()) {
+      std::array<std::optional<Trimline>, 2> on_v;
+      for (std::size_t i = 0; i < 2; ++i)
+        if (lines[i]) on_v[i] = lines[i]->line;
+      return {build_literal(entry, job, std::move(on_v), pointer), {}};
+    }
+    BlendSpec spec{{entry.sides[0].side, entry.sides[1].side}, entry.correspondence, entry.shape};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (spec.sides[i].keep == SideSpec::Keep::automatic && lines[i]->keep)
+        spec.sides[i].keep = *lines[i]->keep;
+      if (lines[i]->edge_deviation > job.tolerance.position)
+        warnings.push_back(pointer + "/" + side_names[i] + "/trimline: the part's edge is up to " +
+                           number_text(lines[i]->edge_deviation, 3) + " " + name(job.unit) +
+                           " away from its face; the blend starts on the face");
+    }
+    return {make_blend(lines[0]->line, lines[1]->line, spec, job.tolerance.position),
+            {spec.sides[0].keep, spec.sides[1].keep}};
+  } catch (const InputError& e) {
+    std::vector<Problem> problems = e.problems();
+    for (Problem& p : problems)
+      if (p.where.empty() || p.where.front() != '/')
+        p.where = pointer + (p.where.empty() ? "" : "/") + job_where(p.where);
+    throw InputError(std::move(problems));
+  } catch (const GeometryError& e) {
+    const std::string text = e.what();
+    throw GeometryError(text.rfind("/blends/", 0) == 0 ? text : pointer + ": " + text);
+  }
+}
+
+void refuse_crossing(const BlendEntry& other, const Blend& other_blend, const BlendEntry& added,
+                     const Blend& added_blend) {
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const BlendSideEntry &a = other.sides[i], &b = added.sides[k];
+      if (a.primary != b.primary || a.primary.empty() || from_step_edge(a) || from_step_edge(b)) continue;
+      if (!other_blend.trimlines[i] || !added_blend.trimlines[k]) continue;
+      const auto found = crossing(*other_blend.trimlines[i], *added_blend.trimlines[k]);
+      if (!found) continue;
+      const auto text = [](double x) { return number_text(x, 4); };
+      throw GeometryError("/blends/" + added.name + "/" + side_names[k] +
+                          "/trimline: crosses the trimline /blends/" + other.name + "/" + side_names[i] +
+                          " on primary \"" + a.primary + "\" at v = " + text(found->v1) + " (" +
+                          text(found->point[0]) + ", " + text(found->point[1]) + ", " +
+                          text(found->point[2]) + "); move one of them");
+    }
+}
+
+Seam blend_seam(const BlendEntry& entry, const Blend& blend, const Surface& surface, std::size_t side) {
+  const EndCondition& end = blend.surface.end(static_cast<int>(side));
+  const auto& line = blend.trimlines[side];
+  Seam s{
+      entry.name + "/" + side_names[side], surface, static_cast<int>(side), std::nullopt, std::nullopt, true};
+  if (line) {
+    s.primary = line->primary();
+    s.pcurve = line->pcurve();
+    s.kept_left = blend.tangents ? blend.tangents->kept_left[side] : literal_keeps_left(*line, end, side);
+  } else {
+    const BoundaryStrip strip(end, static_cast<int>(side));
+    s.primary = strip;
+    s.pcurve = strip.line();
+    s.kept_left = side == 0;  // n x C' = (T x C') x C' points towards -T
+  }
+  return s;
+}
+
 BlendFitOptions fit_options(const Tolerance& tolerance) {
   BlendFitOptions options;
   options.position = 0.3 * tolerance.position;
@@ -175,23 +193,7 @@ BlendFitOptions fit_options(const Tolerance& tolerance) {
 }
 
 BlendUnderTest under_test(const BlendResult& result, const Surface& surface) {
-  const auto seam = [&](std::size_t i) {
-    const int side = static_cast<int>(i);
-    const EndCondition& end = result.blend.surface.end(side);
-    Seam s{result.entry.name + "/" + side_names[i], surface, side, result.primaries[i], std::nullopt, true};
-    const auto& line = result.blend.trimlines[i];
-    if (line) {
-      s.pcurve = line->pcurve();
-      s.kept_left =
-          result.blend.tangents ? result.blend.tangents->kept_left[i] : literal_keeps_left(*line, end, i);
-    } else {
-      const BoundaryStrip strip(end, side);
-      s.primary = strip;
-      s.pcurve = strip.line();
-      s.kept_left = i == 0;  // n x C' = (T x C') x C' points towards -T
-    }
-    return s;
-  };
+  const auto seam = [&](std::size_t i) { return blend_seam(result.entry, result.blend, surface, i); };
   BlendUnderTest whole{
       result.entry.name, surface, {seam(0), seam(1)}, result.blend.surface.domain().v_closed};
   whole.second = second_surfaces(whole);
@@ -225,7 +227,7 @@ JobResult run_job(const JobSpec& job, const Progress& progress, const RunOptions
     const auto stage = [&](const char* doing) { progress.at(done, std::string(doing) + " " + entry.name); };
     stage("building");
     watch.lap();
-    Blend blend = build_blend(entry, job, primaries, result.warnings);
+    Blend blend = build_blend(entry, job, primaries, result.warnings).blend;
     for (const std::string& w : blend.warnings) result.warnings.push_back("/blends/" + entry.name + ": " + w);
     building += watch.lap();
     stage("fitting");
@@ -233,7 +235,8 @@ JobResult run_job(const JobSpec& job, const Progress& progress, const RunOptions
     fitting += watch.lap();
     stage("verifying");
     BlendResult r{entry, std::move(blend), std::move(fitted), {}, {}};
-    refuse_crossings(result.blends, r);
+    for (const BlendResult& other : result.blends)
+      refuse_crossing(other.entry, other.blend, r.entry, r.blend);
     for (std::size_t s = 0; s < 2; ++s)
       if (r.blend.trimlines[s]) r.primaries[s] = r.blend.trimlines[s]->primary();
     r.stages.push_back(verify_blend(under_test(r, r.blend.surface), "formula", checks));

@@ -73,22 +73,28 @@ class BlendSession {
   [[nodiscard]] const std::vector<std::pair<std::string, Surface>>& primaries() const;
 
   /// Sets control `index` of controls(); values are clamped to its range. A value that cannot be built
-  /// (resonance, trimlines that cross) leaves everything as it was and says why.
+  /// (resonance, trimlines that cross) leaves everything as it was and says why. The list of a blend does not
+  /// change while it is shaped: tension (named q where the job has the root q; its low end stands for none),
+  /// mode and, unless the boundary data are typed, the magnitude factor and the continuity of both sides.
+  /// What a choice takes away with it (G2: q, b, c, d and frames, which only the fourth order has) is in the
+  /// message.
   struct Outcome {
     bool done = true;
     std::string message{};  ///< for the status line; empty: nothing to say
   };
   Outcome set(std::size_t control, double value);
-  /// Moves a handle towards `target`, a point in space: a trimline handle to the nearest place of its
-  /// primary, a magnitude handle along T.
+  /// Moves a handle towards `target`, a point in space: a trimline along u or v moves as a whole to the
+  /// nearest place of its primary (other trimlines stay and say so), a magnitude handle runs along T: a
+  /// constant factor becomes a law with a point per handle, of a law the nearest point is scaled.
   Outcome drag(const SessionHandle& handle, const Vec3& target);
-  /// Ends one gesture: everything since the last commit() is one step of undo.
+  /// Ends one gesture: everything since the last commit() is one step of undo. undo() and redo() end it too.
   void commit();
   bool undo();
   bool redo();
-  [[nodiscard]] bool changed() const;  ///< since the last save
+  [[nodiscard]] bool changed() const;  ///< since the last save, or since opening
 
-  /// Worst gap and angle of blend k to its primaries, measured now (verify's seams at 65 places).
+  /// Worst gap, angle and curvature jump of blend k to its primaries: verify's measurement at the grid's
+  /// places along v. NaN where there is no measurement.
   struct Errors {
     double gap = 0.0, angle_deg = 0.0, curvature_jump = 0.0;
   };
