@@ -37,7 +37,8 @@ done <<<"$(sed '/^$/d' <<<"$pictures")"
 
 # The viewer's window: events are replayed in it.
 cat >"$work/view.txt" <<EOF
-key 2
+drag tension 10
+key 5
 click 700 600
 screenshot $PWD/gallery/view.png
 EOF

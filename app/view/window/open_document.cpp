@@ -7,7 +7,7 @@
 
 #include "app/json/json_value.hpp"
 #include "app/pipeline/mesh_job.hpp"
-#include "app/view/window/file_document.hpp"
+#include "app/view/window/blend_document.hpp"
 #include "kernel/base/error.hpp"
 #include "kernel/exchange/mesh_files.hpp"
 #include "kernel/exchange/vtk_messages.hpp"
@@ -97,8 +97,8 @@ std::unique_ptr<Document> open_document(const std::string& file, const Progress&
     const JsonKind kind = kind_of(text);
     if (kind == JsonKind::report)
       throw InputError("", "is a report, must be the job or the scene that it reports on");
-    if (kind == JsonKind::scene)
-      return std::make_unique<FileDocument>(file, scene_input(build_scene_text(text, file), progress));
+    if (kind == JsonKind::job) return std::make_unique<BlendDocument>(file, text);
+    return std::make_unique<FileDocument>(file, scene_input(build_scene_text(text, file), progress));
   }
   return std::make_unique<FileDocument>(file, read_picture_input(file, {}, progress));
 }

@@ -7,6 +7,7 @@
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 
@@ -22,6 +23,11 @@ VTK_MODULE_INIT(vtkRenderingFreeType)
 VTK_MODULE_INIT(vtkRenderingUI)
 
 namespace blendwright {
+namespace {
+
+constexpr double rounding = 1e-15;
+
+}  // namespace
 
 /// Hands the interactor's events to the controller; VTK's own keys and camera are not used.
 class ViewWindow::Style : public vtkInteractorStyle {
@@ -121,6 +127,9 @@ void ViewWindow::update_colours() {
       all.insert(all.end(), values.back().back().begin(), values.back().back().end());
     }
   }
+  // Exact joints have no error at all: a bar needs some length, that of rounding.
+  const bool error = state.show == Show::gap || state.show == Show::angle;
+  if (error && !all.empty() && *std::max_element(all.begin(), all.end()) <= 0.0) all.push_back(rounding);
   scale_.reset();
   if (!all.empty()) scale_ = colour_scale(state.show, state.options, all);
   for (std::size_t i = 0; i < panes_.size(); ++i) panes_[i]->update_colours(state, values[i], scale_);
