@@ -91,5 +91,20 @@ TEST(BlendSession, PrintsReshapesPerSecond) {
   EXPECT_FALSE(same_grid(first, s.grid(0)));
 }
 
+TEST(BlendSession, TrimlinesFollowTheHandAlongTheirPrimary) {
+  BlendSession s = opened("open-blend", 200);
+  const SessionHandle h = s.handles()[6];
+  ASSERT_EQ(h.kind, SessionHandle::Kind::trimline);
+  const Surface& panel = s.blend(0).trimlines[0]->primary();
+  double moved = 0.0;
+  std::cout << "reshapes per second of 200 x 200: trimline " << rate([&](int i) {
+    const double u = -0.3 - 0.01 * i;
+    EXPECT_TRUE(s.drag(h, panel.jet({u, 0.7}).S).done);
+    moved = std::max(moved, std::abs(s.job().blends[0].sides[0].trimline->value - u));
+  }) << "\n";
+  EXPECT_LE(moved, 1e-7);  // a foot is found to the square root of the rounding of its distance
+  EXPECT_LE(s.errors(0).gap, 1e-12 * test::size_of(s.grid(0)));
+}
+
 }  // namespace
 }  // namespace blendwright
