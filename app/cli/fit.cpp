@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "app/cli/fit_scene.hpp"
 #include "app/cli/run_table.hpp"
 #include "app/cli/text_table.hpp"
 #include "app/cli/verbs.hpp"
@@ -143,6 +144,18 @@ bool is_scene(const std::string& text) {
   return root.find("nodes") && !root.find("blends");
 }
 
+void refuse_what_is_for_scenes(const FitCommand& command) {
+  std::vector<Problem> problems;
+  const auto refuse = [&](const char* flag, bool given) {
+    if (given) problems.push_back({flag, "is for scenes; a job is fitted to its \"fit\" and --objective"});
+  };
+  refuse("--points", !command.points.empty());
+  refuse("--unknown", !command.unknowns.empty());
+  refuse("--robust-scale", command.robust_scale.has_value());
+  refuse("--from-points", command.from_points);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 int fit_job(const FitCommand& command, const std::string& text, const Console& console, Run& run) {
   const JobSpec job = read_job(text, command.job);
   const FitJobOptions options = options_of(command, job);
@@ -183,7 +196,8 @@ int fit(const FitCommand& command, const Console& console) {
     if (command.threads) limit.emplace(*command.threads);
     require_sensible(command);
     const std::string text = read_json_text(command.job);
-    if (is_scene(text)) throw InputError("", "is a scene of soft objects, must be a job with \"blends\"");
+    if (is_scene(text)) return fit_scene_file(command, text, console, run);
+    refuse_what_is_for_scenes(command);
     return fit_job(command, text, console, run);
   });
 }

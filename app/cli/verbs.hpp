@@ -51,10 +51,15 @@ struct FitCommand {
   std::optional<int> starts;
   std::string plot;            ///< empty: none
   std::string report, called;  ///< as of BlendCommand
+  std::string points;                 ///< of a scene: what it is fitted to
+  std::vector<std::string> unknowns;  ///< of a scene, as typed_unknown takes them; empty: all
+  std::optional<double> robust_scale;
+  bool from_points = false;
   bool force = false, json = false, times = false, quiet = false;
   std::optional<int> threads;
 };
-/// Finds the shape that a job asks for, and writes the job that has it.
+/// Finds the shape that a job asks for, and writes the job that has it; of a scene, the numbers that bring it
+/// closest to points.
 [[nodiscard]] int fit(const FitCommand& command, const Console& console);
 
 struct MeshCommand {

@@ -230,7 +230,7 @@ SceneFitResult fit_scene(const SceneSpec& start, std::span<const Vec3> points, c
   const std::vector<double> own = values;
   if (starts.empty()) starts.push_back({model, values});
   SolveOptions how{{}, options.max_iterations};
-  for (double scale = 0.1 * size; options.robust_scale && scale > *options.robust_scale; scale *= 0.25)
+  for (double scale = 0.1 * size; options.robust_scale && scale > *options.robust_scale; scale *= 0.1)
     how.robust_scales.push_back(scale);
   how.robust_scales.push_back(options.robust_scale.value_or(0.0));
   Best best = starts.size() == 1 ? Best{model, solve_fit(model, values, points, how, progress)}
