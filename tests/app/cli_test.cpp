@@ -129,7 +129,7 @@ TEST(Program, ListsTheFamiliesWhenNoneIsNamed) {
   const Outcome text = run_program("list");
   EXPECT_EQ(text.code, 0);
   const std::vector<std::string> families = names_of(parse_json(run_program("list --json").out), "name");
-  EXPECT_EQ(families.size(), 17u);
+  EXPECT_EQ(families.size(), 18u);
   for (const std::string& family : families) {
     EXPECT_THAT(text.out, HasSubstr("  " + family + " "));
     EXPECT_EQ(run_program("list " + family).code, 0);

@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, SceneMesh, ::testing::ValuesIn(example_scenes
   return name;
 });
 
-TEST(SceneMeshes, AreThereForEveryFigure) { EXPECT_EQ(example_scenes().size(), 50u); }
+TEST(SceneMeshes, AreThereForEveryFigure) { EXPECT_EQ(example_scenes().size(), 51u); }
 
 TEST(SceneBounds, ComeFromSlabsThatEncloseTheSolid) {
   for (const char* name : {"s0-4", "s2-1b"}) {
