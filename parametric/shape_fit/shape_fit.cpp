@@ -225,10 +225,43 @@ class Fit {
   SolverSetting setting_{};
 };
 
-ShapeFitResult fitted(FitInput input, const ShapeFitOptions& options, const Progress& progress,
+/// Makes a limit that was missed weigh more; false for objectives that are no limits.
+struct WeighMore {
+  bool operator()(LargestCurvature& o) const { return o.weight > 0.0 && (o.weight *= 30.0) > 0.0; }
+  bool operator()(Clearance& o) const { return o.weight > 0.0 && (o.weight *= 30.0) > 0.0; }
+  bool operator()(NoFold& o) const { return o.weight > 0.0 && (o.weight *= 30.0) > 0.0; }
+  template <class Other>
+  bool operator()(Other&) const {
+    return false;
+  }
+};
+
+/// Limits are meant everywhere, but are kept at samples and against what else is wanted. When one is missed,
+/// the fit is repeated on twice as many samples each way, with that limit weighing thirty times as much;
+/// twice at most.
+ShapeFitResult fitted(const FitInput& input, const ShapeFitOptions& options, const Progress& progress,
                       const FitStep& step) {
   const ThreadLimit limit(std::max(1, options.threads));
-  return Fit(std::move(input), options, progress, step).run();
+  constexpr std::array share{0.0, 0.3, 0.6, 1.0};
+  ShapeFitOptions stricter = options;
+  for (std::size_t round = 0;; ++round) {
+    Progress part{.stop = progress.stop};
+    part.report = [&](double fraction, std::string_view stage) {
+      progress.report(share[round] + (share[round + 1] - share[round]) * fraction, stage);
+    };
+    ShapeFitResult result = Fit(input, stricter, part, step).run();
+    bool missed = false;
+    for (std::size_t i = 0; i < options.objectives.size(); ++i) {
+      result.objectives[i].weight = weight(options.objectives[i]);
+      if (!result.objectives[i].fulfilled) missed = std::visit(WeighMore{}, stricter.objectives[i]) || missed;
+    }
+    if (round == 2 || !missed) {
+      progress.report(1.0, "fitted");
+      return result;
+    }
+    stricter.samples_u *= 2;
+    stricter.samples_v *= 2;
+  }
 }
 
 }  // namespace
@@ -246,7 +279,7 @@ ShapeFitResult fit_shape(const Trimline& line0, const Trimline& line1, const Ble
   input.lines = {line0, line1};
   input.spec = start;
   input.tolerance = tolerance;
-  return fitted(std::move(input), options, progress, step);
+  return fitted(input, options, progress, step);
 }
 
 ShapeFitResult fit_literal_shape(const EndCondition& end0, const EndCondition& end1, const BlendShape& start,
@@ -255,7 +288,7 @@ ShapeFitResult fit_literal_shape(const EndCondition& end0, const EndCondition& e
   FitInput input;
   input.ends = {end0, end1};
   input.spec.shape = start;
-  return fitted(std::move(input), options, progress, step);
+  return fitted(input, options, progress, step);
 }
 
 }  // namespace blendwright

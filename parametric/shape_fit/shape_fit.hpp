@@ -142,7 +142,9 @@ using FitStep = std::function<void(int iteration, double cost, const Blend& blen
 /// Throws InputError (where: "objectives/1/radius", "unknowns/magnitudes/0", "bounds/tension", ...; all
 /// problems at once: no objective, all weights zero, not finite, bounds crossed, no unknown, a point off by
 /// more than 10 times the blend's size, ...), GeometryError (the start cannot be built), ConvergenceError (no
-/// finite cost anywhere), Cancelled. The same bytes for any number of threads. Time is linear in samples_v.
+/// finite cost anywhere), Cancelled. The same bytes for any number of threads. Time is linear in samples_v. A
+/// limit (LargestCurvature, Clearance, NoFold) that is missed is fitted again on twice as many samples each way
+/// with more weight, twice at most; `costs` and the calls of `step` are then those of the last fit.
 [[nodiscard]] ShapeFitResult fit_shape(const Trimline& line0, const Trimline& line1, const BlendSpec& start,
                                        double tolerance, const ShapeFitOptions& options,
                                        const Progress& progress = {}, const FitStep& step = {});
