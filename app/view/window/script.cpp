@@ -27,6 +27,8 @@ constexpr ViewScriptCommand commands[] = {
     {"resize", "WIDTH HEIGHT", "changes the size of the window"},
     {"screenshot", "FILE", "writes what the window shows, as PNG"},
     {"save", "FILE", "saves the changed file; an existing one only with --force"},
+    {"drawing", "on|off",
+     "off: events are handled, the window is not drawn again until it is on; for long scripts"},
     {"state", "", "prints the state"},
     {"quit", "", "ends; the end of the script does so too"}};
 
@@ -103,6 +105,8 @@ std::string problem_of(const ScriptStep& step) {
     if (!action_of(key.symbol, key.control))
       return "key " + in_quotes(step.words[0]) + " does nothing, must be one of the help (H)";
   }
+  if (step.command == "drawing" && step.words[0] != "on" && step.words[0] != "off")
+    return "drawing is " + in_quotes(step.words[0]) + ", must be on or off";
   if (step.command == "resize" &&
       (*number_of(step.words[0]) < least_window_width || *number_of(step.words[1]) < least_window_height ||
        *number_of(step.words[0]) > 4096 || *number_of(step.words[1]) > 4096))
@@ -128,6 +132,7 @@ class Replay {
     if (s.command == "wheel") wheel(number(0));
     if (s.command == "key") window_.send(Event::key, pane_middle(), typed_key(s.words[0]));
     if (s.command == "resize") window_.resize(static_cast<int>(number(0)), static_cast<int>(number(1)));
+    if (s.command == "drawing") window_.set_drawing(s.words[0] == "on");
     if (s.command == "screenshot") window_.write_png(s.words[0]);
     if (s.command == "save") controller_.save(s.words[0], false);
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <utility>
 
 #include "app/view/window/overlay.hpp"
 #include "app/view/window/script.hpp"
@@ -135,7 +136,13 @@ void ViewWindow::update_colours() {
   for (std::size_t i = 0; i < panes_.size(); ++i) panes_[i]->update_colours(state, values[i], scale_);
 }
 
+void ViewWindow::set_drawing(bool on) {
+  drawing_ = on;
+  draw();
+}
+
 void ViewWindow::draw() {
+  if (!drawing_) return;  // changes are kept until then
   const ViewChanges changes = controller_.take_changes();
   times_.reshapes += changes.reshapes;
   times_.reshape_seconds += changes.reshape_seconds;
@@ -157,7 +164,9 @@ void ViewWindow::draw() {
 }
 
 void ViewWindow::write_png(const std::filesystem::path& file) {
+  const bool drawing = std::exchange(drawing_, true);
   draw();
+  drawing_ = drawing;
   const int* size = window_->GetSize();
   vtkNew<vtkUnsignedCharArray> pixels;
   window_->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);

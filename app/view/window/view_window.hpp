@@ -25,6 +25,8 @@ class ViewWindow {
   void run();
   /// Draws what changed since the last time.
   void draw();
+  /// Off: draw() does nothing and what changed is drawn when it is on again.
+  void set_drawing(bool on);
   void write_png(const std::filesystem::path& file);
   void resize(int width, int height);
   [[nodiscard]] const WindowTimes& times() const { return times_; }
@@ -45,6 +47,7 @@ class ViewWindow {
   Painter painter_;
   std::optional<ColourScale> scale_;
   WindowTimes times_;
+  bool drawing_ = true;
 };
 
 }  // namespace blendwright

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/app/view_window/viewing.hpp"
+#include "tests/support/for_all.hpp"
 
 namespace blendwright::test {
 namespace {
@@ -76,6 +77,55 @@ TEST(ViewJob, AHandleMovesAndErrorsStayAtRounding) {
   for (const JsonValue& s : v.states) EXPECT_LE(*s.find("worst_gap")->number(), 1e-12);
   EXPECT_EQ(json_text(*v.states[2].find("handles")), json_text(*v.states[0].find("handles")));
   EXPECT_EQ(json_text(*v.states[3].find("handles")), json_text(*v.states[1].find("handles")));
+}
+
+TEST(ViewJob, ChoicesAreClickedAndUndone) {
+  const Viewed first = viewed(job, "state\n");
+  ASSERT_EQ(first.states.size(), 1u) << first.err;
+  std::vector<std::string> choices;
+  for (const JsonMember& m : *first.states[0].find("controls")->members())
+    if (m.value.text()) choices.push_back(m.key);
+  ASSERT_GE(choices.size(), 3u);  // mode, continuity from and to
+  std::string events = "state\ndrawing off\n";
+  for (const std::string& name : choices) events.append("drag \"").append(name).append("\" 1\nkey Ctrl+Z\n");
+  const Viewed v = viewed(job, events);
+  ASSERT_EQ(v.states.size(), 2 + 2 * choices.size()) << v.err;
+  const auto word = [&](std::size_t state, const std::string& name) {
+    return *v.states[state].find("controls")->find(name)->text();
+  };
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    EXPECT_NE(word(2 + 2 * i, choices[i]), word(0, choices[i])) << choices[i];
+    EXPECT_EQ(word(3 + 2 * i, choices[i]), word(0, choices[i])) << choices[i];
+  }
+}
+
+TEST(ViewJob, RandomDragsKeepTheJointsExact) {
+  constexpr int drags = 200;
+  const std::vector<std::string> names = sliders();
+  ASSERT_FALSE(names.empty());
+  Rng rng(1);
+  std::string events = "state\ndrawing off\n";
+  for (int i = 0; i < drags; ++i)
+    if (i % 2 == 0) {
+      const std::string& name =
+          names[static_cast<std::size_t>(integer(rng, 0, static_cast<int>(names.size()) - 1))];
+      events.append("drag \"").append(name).append("\" ").append(
+          std::to_string(log_uniform(rng, 0.5, 3.0))) += "\n";
+    } else {
+      events.append("drag-handle ").append(std::to_string(integer(rng, 0, 31)));
+      for (int k = 0; k < 2; ++k) events.append(" ").append(std::to_string(integer(rng, -9, 9)));
+      events += "\n";
+    }
+  const Viewed v = viewed(job, events + "drawing on\n");
+  ASSERT_EQ(v.states.size(), static_cast<std::size_t>(drags) + 3) << v.err;
+  int moved = 0;
+  for (std::size_t i = 0; i < v.states.size(); ++i) {
+    EXPECT_LE(*v.states[i].find("worst_gap")->number(), 1e-12) << i;
+    if (i > 0)
+      moved += json_text(*v.states[i].find("handles")) != json_text(*v.states[i - 1].find("handles")) ||
+               json_text(*v.states[i].find("controls")) != json_text(*v.states[i - 1].find("controls"));
+  }
+  EXPECT_GT(moved, drags / 2);  // they are drags of something
 }
 
 }  // namespace
