@@ -146,7 +146,7 @@ class Checker {
       const double w = std::visit([](const auto& o) { return o.weight; }, options_.objectives[k]);
       number(where_ + "/weight", w, 0.0, false, "a weight");
       any = any || w > 0.0;
-      good = good && std::isfinite(w);
+      good = good && std::isfinite(w) && w >= 0.0;
       std::visit([this](const auto& o) { check(o); }, options_.objectives[k]);
     }
     if (!any && good)

@@ -167,7 +167,8 @@ Arrangement arranged(const FractionLine& line0, const FractionLine& line1, const
 /// The line over `range` with x = offset + sign t, t the fraction of the range; itself when nothing changes.
 Trimline mapped(const FractionLine& line, double offset, double sign, const Interval& range) {
   const CurveDomain domain{range, line.line.domain().closed};
-  if (!line.map.p && offset == 0.0 && sign > 0.0 && range == line.line.domain().v) return line.line;
+  const bool same_map = !line.map.p && line.map.a == range.lo && line.map.b == range.length();
+  if (same_map && offset == 0.0 && sign > 0.0 && range == line.line.domain().v) return line.line;
   const double d = sign / range.length();
   return reparametrised(line.line, LineMap{line.map, offset - d * range.lo, d, domain});
 }
