@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "parametric/cross_tangent/side_frame.hpp"
 #include "parametric/shape_fit/dual_series.hpp"
@@ -13,6 +14,7 @@ void put(RowsAt& R, Row row, const Series3& value) {
   for (std::size_t b = 0; b < 3; ++b) R[b][row] = derivative(value, static_cast<int>(b));
 }
 Series3 values(const Dual3& a) { return {a[0].v, a[1].v, a[2].v}; }
+const Series3& values(const Series3& a) { return a; }
 Series3 changes(const Dual3& a, std::size_t i) { return {a[0].d[i], a[1].d[i], a[2].d[i]}; }
 
 RowsAt empty_rows(const Vec3& anchor) {
@@ -78,14 +80,18 @@ class LineTable {
   [[nodiscard]] double error() const { return error_; }
 
   /// Channel c at g(t), with its derivative by g when that is unknown.
-  [[nodiscard]] Dual at(std::size_t c, const Series& g, bool by_g) const {
+  template <class D>
+  [[nodiscard]] D at(std::size_t c, const Series& g, bool by_g) const {
+    if constexpr (std::is_same_v<D, Series>) return splines_[c](g);
     const Series local = splines_[c](Series::variable(g.value()));
-    Dual r(compose_scalar(local.c, g));
-    if (by_g) r.d[2] = compose_scalar(local.differentiated().c, g);
+    D r(compose_scalar(local.c, g));
+    if constexpr (std::is_same_v<D, Dual>)
+      if (by_g) r.d[2] = compose_scalar(local.differentiated().c, g);
     return r;
   }
-  [[nodiscard]] Dual3 vector(std::size_t first, const Series& g, bool by_g) const {
-    return {at(first, g, by_g), at(first + 1, g, by_g), at(first + 2, g, by_g)};
+  template <class D>
+  [[nodiscard]] std::array<D, 3> vector(std::size_t first, const Series& g, bool by_g) const {
+    return {at<D>(first, g, by_g), at<D>(first + 1, g, by_g), at<D>(first + 2, g, by_g)};
   }
 
  private:
@@ -168,9 +174,31 @@ class LineRows final : public BoundaryRows {
   }
 
   [[nodiscard]] Section at(double t, const double* x, bool with_derivatives) const override {
+    if (!with_derivatives) {
+      Section s;
+      fill(pair<Series>(t, x), s);
+      return s;
+    }
     Section s;
+    const Pair<Dual> p = pair<Dual>(t, x);
+    fill(p, s);
+    differentiate(t, p, s);
+    return s;
+  }
+
+ private:
+  template <class D>
+  struct Pair {
+    Series g;
+    std::array<std::array<D, 3>, 2> C, U, V;
+    std::array<Series, 2> law;
+    double cos_theta = 1.0;
+  };
+  [[nodiscard]] bool second(std::size_t i) const { return sides_[i].continuity == Continuity::G2; }
+
+  template <class D>
+  void fill(const Pair<D>& p, Section& s) const {
     s.R = empty_rows(anchor_);
-    const Pair p = pair(t, x, with_derivatives);
     s.map_slope = p.g.derivative(1);
     for (const SideSpec& side : sides_)
       if (side.rule == MagnitudeRule::circle_like) s.cos_theta = p.cos_theta;
@@ -181,68 +209,63 @@ class LineRows final : public BoundaryRows {
       if (second(i)) put(s.R, i == 0 ? D0 : D1, p.law[i] * p.law[i] * values(p.V[i]));
     }
     s.least_law = std::min(p.law[0].value(), p.law[1].value());
-    if (with_derivatives) differentiate(t, p, s);
-    return s;
   }
 
- private:
-  struct Pair {
-    Series g;
-    std::array<Dual3, 2> C, U, V;
-    std::array<Series, 2> law;
-    double cos_theta = 1.0;
-  };
-  [[nodiscard]] bool second(std::size_t i) const { return sides_[i].continuity == Continuity::G2; }
-
-  [[nodiscard]] Pair pair(double t, const double* x, bool with_derivatives) const {
-    Pair p;
+  template <class D>
+  [[nodiscard]] Pair<D> pair(double t, const double* x) const {
+    using D3 = std::array<D, 3>;
+    Pair<D> p;
     p.g = Series::variable(t);
     if (layout_.mapped) p.g = p.g + layout_.map(t, x + layout_.map_start());
-    const bool by_g = with_derivatives && layout_.mapped;
+    const bool by_g = layout_.mapped;
     for (std::size_t i = 0; i < 2; ++i) p.law[i] = layout_.law[i](t, x + layout_.law_start(i));
     const std::array<Series, 2> place{Series::variable(t), p.g};
-    for (std::size_t i = 0; i < 2; ++i) p.C[i] = tables_[i].vector(0, place[i], by_g && i == 1);
-    const Dual3 De = p.C[1] - p.C[0];
-    const Dual chord = sqrt(dot(De, De));
-    const Dual3 along_chord = reciprocal(chord) * De;
-    std::array<Dual3, 2> d;
-    std::array<Dual, 2> cosine, sine;
+    for (std::size_t i = 0; i < 2; ++i) p.C[i] = tables_[i].template vector<D>(0, place[i], by_g && i == 1);
+    const D3 De = p.C[1] - p.C[0];
+    const D chord = sqrt(dot(De, De));
+    const D3 along_chord = reciprocal(chord) * De;
+    std::array<D3, 2> d;
+    std::array<D, 2> cosine, sine;
     for (std::size_t i = 0; i < 2; ++i) {
       if (sides_[i].continuity == Continuity::G0) {
         d[i] = along_chord;
         continue;
       }
       const double psi = layout_.angle[i] ? x[layout_.angle_start(i)] : sides_[i].tangent_angle.value;
-      cosine[i] = Dual(std::cos(psi));
-      sine[i] = Dual(std::sin(psi));
-      if (layout_.angle[i]) {
-        cosine[i].d[i] = -sine[i].v;
-        sine[i].d[i] = cosine[i].v;
-      }
-      d[i] = cosine[i] * tables_[i].vector(3, place[i], by_g && i == 1) +
-             sine[i] * tables_[i].vector(6, place[i], by_g && i == 1);
+      cosine[i] = D(std::cos(psi));
+      sine[i] = D(std::sin(psi));
+      if constexpr (std::is_same_v<D, Dual>)
+        if (layout_.angle[i]) {
+          cosine[i].d[i] = -sine[i].v;
+          sine[i].d[i] = cosine[i].v;
+        }
+      d[i] = cosine[i] * tables_[i].template vector<D>(3, place[i], by_g && i == 1) +
+             sine[i] * tables_[i].template vector<D>(6, place[i], by_g && i == 1);
     }
-    const Dual cos_theta = dot(d[0], d[1]);
-    p.cos_theta = cos_theta.v.value();
+    const D cos_theta = dot(d[0], d[1]);
+    p.cos_theta = value(cos_theta).value();
     for (std::size_t i = 0; i < 2; ++i) {
-      const Dual rho = magnitude(sides_[i].rule, chord, cos_theta);
+      const D rho = magnitude<D>(sides_[i].rule, chord, cos_theta);
       p.U[i] = rho * d[i];
       if (!second(i)) continue;
-      const auto bend = [&](std::size_t c) { return tables_[i].at(12 + c, place[i], by_g && i == 1); };
-      const Dual II = cosine[i] * cosine[i] * bend(0) + Dual(2.0) * cosine[i] * sine[i] * bend(1) +
-                      sine[i] * sine[i] * bend(2);
-      p.V[i] = rho * rho * II * tables_[i].vector(9, place[i], by_g && i == 1);
+      const auto bend = [&](std::size_t c) {
+        return tables_[i].template at<D>(12 + c, place[i], by_g && i == 1);
+      };
+      const D II = cosine[i] * cosine[i] * bend(0) + D(2.0) * cosine[i] * sine[i] * bend(1) +
+                   sine[i] * sine[i] * bend(2);
+      p.V[i] = rho * rho * II * tables_[i].template vector<D>(9, place[i], by_g && i == 1);
     }
     return p;
   }
 
-  static Dual magnitude(MagnitudeRule rule, const Dual& chord, const Dual& cos_theta) {
-    if (rule == MagnitudeRule::constant) return Dual(1.0);
+  template <class D>
+  static D magnitude(MagnitudeRule rule, const D& chord, const D& cos_theta) {
+    if (rule == MagnitudeRule::constant) return D(1.0);
     if (rule == MagnitudeRule::chord) return chord;
-    return Dual(2.0) * reciprocal(Dual(1.0) + sqrt(Dual(0.5) * (Dual(1.0) + cos_theta))) * chord;
+    return D(2.0) * reciprocal(D(1.0) + sqrt(D(0.5) * (D(1.0) + cos_theta))) * chord;
   }
 
-  void differentiate(double t, const Pair& p, Section& s) const {
+  void differentiate(double t, const Pair<Dual>& p, Section& s) const {
     s.by.resize(layout_.size());
     const auto add = [](Section::Change& c, Row row, const Series3& value) {
       c.rows[c.count] = row;

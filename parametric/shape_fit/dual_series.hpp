@@ -44,6 +44,12 @@ inline Dual sqrt(const Dual& a) {
   return r;
 }
 
+// The same operations on bare series, where derivatives are not asked for.
+inline const Series& value(const Series& a) { return a; }
+inline const Series& value(const Dual& a) { return a.v; }
+inline Series sqrt(const Series& a) { return blendwright::sqrt(a); }
+inline Series reciprocal(const Series& a) { return blendwright::reciprocal(a); }
+
 using Dual3 = std::array<Dual, 3>;
 inline Dual3 operator+(const Dual3& a, const Dual3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Dual3 operator-(const Dual3& a, const Dual3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

@@ -62,6 +62,8 @@ FootPoint closest(const BlendModel::At& blend, bool closed, const Vec3& q, FootP
       dt = (-gt * a + gu * b) / det;
     }
     dt = std::clamp(dt, -0.1, 0.1);
+    // The distance is stationary at the foot: its error is the square of what is missing there.
+    if (std::abs(du) < 1e-9 && std::abs(dt) < 1e-9) break;
     double factor = 1.0;
     bool moved = false;
     for (int half = 0; half < 12 && !moved; ++half, factor *= 0.5) {
@@ -74,7 +76,7 @@ FootPoint closest(const BlendModel::At& blend, bool closed, const Vec3& q, FootP
       value = at;
       jet = std::move(there);
     }
-    if (!moved || (std::abs(factor * du) < 1e-12 && std::abs(factor * dt) < 1e-12)) break;
+    if (!moved) break;
   }
   return p;
 }
