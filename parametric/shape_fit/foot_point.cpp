@@ -62,8 +62,8 @@ FootPoint closest(const BlendModel::At& blend, bool closed, const Vec3& q, FootP
       dt = (-gt * a + gu * b) / det;
     }
     dt = std::clamp(dt, -0.1, 0.1);
-    // The distance is stationary at the foot: its error is the square of what is missing there.
-    if (std::abs(du) < 1e-9 && std::abs(dt) < 1e-9) break;
+    // Newton's last step squares what is missing: it needs no check.
+    if (std::abs(du) < 1e-8 && std::abs(dt) < 1e-8) return kept({p.u + du, p.t + dt});
     double factor = 1.0;
     bool moved = false;
     for (int half = 0; half < 12 && !moved; ++half, factor *= 0.5) {
