@@ -275,9 +275,9 @@ TEST(ShapeFit, TakesTimeInProportionToTheSamples) {
     std::printf("time: %6d residuals, %7.3f s for %zu steps, %.2f us per residual and step\n", residuals,
                 seconds, result.costs.size() - 1, 1e6 * per_residual.back());
   }
-  // Ten times the samples take at most ten times as long (twice that for a busy machine); few samples carry
-  // what every fit costs.
-  EXPECT_LE(per_residual.back(), 2.0 * per_residual[2]);
+  // In proportion, the time per residual does not grow; with the square of the samples it would grow 8.6
+  // times. Between the two, so that other work on the machine does not decide.
+  EXPECT_LE(per_residual.back(), 4.0 * per_residual[2]);
 }
 
 ObstacleSample from_sphere(const Vec3& centre, double radius, const Vec3& p) {
