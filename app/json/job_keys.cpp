@@ -113,6 +113,9 @@ ObjectInfo trimline_object(const Choice<TrimlineSpec::Kind>& kind) {
                         {"curve", "edge_kind", "kind of the edge's curve; default: any"}});
       break;
   }
+  object.keys.push_back({"shift", "shifts",
+                         "[[t, du, dv], ...]: moves the line along its primary, smoothly between the "
+                         "fractions t of its range; in the primary's parameters, angles in radians"});
   return object;
 }
 

@@ -36,6 +36,11 @@ JsonValue list(const std::vector<LawPoint>& law) {
   for (const LawPoint& p : law) all.push_back(JsonValue::array({p.t, p.value}));
   return all;
 }
+JsonValue list(const std::vector<ShiftPoint>& law) {
+  JsonValue::Array all;
+  for (const ShiftPoint& p : law) all.push_back(JsonValue::array({p.t, p.by[0], p.by[1]}));
+  return all;
+}
 JsonValue list(const std::vector<std::string>& texts) { return JsonValue::Array(texts.begin(), texts.end()); }
 
 /// The shortest number of degrees that is read as exactly these radians. Not every angle has one: degrees are
@@ -162,6 +167,10 @@ class BlendEdit {
           edit_.set(at / "curve", now.edge.curve);
         break;
     }
+    if (now.shift.empty())
+      forget(at / "shift");
+    else
+      edit_.set(at / "shift", list(now.shift));
   }
 
   void optional_point(const Path& at, const std::optional<Vec3>& p) {
@@ -185,7 +194,7 @@ class BlendEdit {
     const std::size_t fixed = now.direction == IsoDirection::constant_u ? 0 : 1;
     if (other)
       for (const KeyInfo& k : job_object("trimline isoline").keys)
-        if (k.name != "kind") forget(at / k.name);
+        if (k.name != "kind" && k.name != "shift") forget(at / k.name);
     if (other || was->value != now.value) value(at, names[fixed], angular[fixed], {now.value});
     if (!now.range)
       for (const char* key : {"range", "range_deg", "range_rad"}) forget(at / key);

@@ -29,6 +29,7 @@ void add_job_types(Value& definitions) {
       {"points", list_of(exactly(number, 3), 1)},
       {"objectives", list_of(reference("objective"), 1)},
       {"pairs", list_of(exactly(number, 2), 1)},
+      {"shifts", list_of(exactly(number, 3), 1)},
       {"axes", exactly(exactly(number, 3), 3)},
       {"frame_or_axes", either({reference("frame"), reference("frame_axes")})},
       {"formats", list_of(reference("format"), 1)},

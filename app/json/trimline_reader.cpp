@@ -24,7 +24,8 @@ Parameters parameters_of(const std::string& kind) {
 bool refuse_foreign_keys(ObjectReader& object, const std::string& kind, const Parameters& own) {
   bool foreign = false;
   for (const KeyInfo& k : job_object("trimline isoline").keys) {
-    if (k.name == "kind" || k.name.rfind("range", 0) == 0 || !object.has(k.name)) continue;
+    if (k.name == "kind" || k.name == "shift" || k.name.rfind("range", 0) == 0 || !object.has(k.name))
+      continue;
     if (k.name == own.keys[0] || k.name == own.keys[1]) continue;
     if (k.name == own.in_radians[0] || k.name == own.in_radians[1]) continue;
     foreign = true;
@@ -103,6 +104,21 @@ void read_edge(ObjectReader& object, TrimlineSpec& spec, Reading& reading) {
   if (const auto i = reading.word(*kind, object.at("curve"), kinds)) spec.edge.curve = kinds[*i];
 }
 
+/// Whether the line closes, hence what else a shift must be, is known when it is built.
+void read_shift(ObjectReader& object, TrimlineSpec& spec, Reading& reading) {
+  const JsonValue* value = object.find("shift");
+  if (!value) return;
+  const std::string where = object.at("shift");
+  if (!value->items() || value->items()->empty())
+    return reading.problem(where,
+                           described(*value) + ", must be a list of [t, du, dv], such as [[0.5, 0, 2]]");
+  for (std::size_t i = 0; i < value->items()->size(); ++i)
+    if (const auto p = reading.numbers((*value->items())[i], where + "/" + std::to_string(i), 3))
+      spec.shift.push_back({(*p)[0], {(*p)[1], (*p)[2]}});
+  if (reading.faulty(where)) return;
+  for (const Problem& p : check_shift(spec.shift, false, where)) reading.problem(p.where, p.message);
+}
+
 }  // namespace
 
 TrimlineSpec read_trimline(const JsonValue& value, const std::string& where, const std::string& name,
@@ -144,6 +160,7 @@ TrimlineSpec read_trimline(const JsonValue& value, const std::string& where, con
       read_edge(object, spec, reading);
       break;
   }
+  read_shift(object, spec, reading);
   return spec;
 }
 

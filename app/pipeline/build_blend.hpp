@@ -2,6 +2,7 @@
 // One blend of a job, built and looked at on its own: what run_job does for every blend, and what shaping by
 // hand does again and again.
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct BuiltBlend {
   Blend blend;
   /// Which sides of the trimlines are kept: the job's word, else that of the part an edge was taken from.
   std::array<SideSpec::Keep, 2> keep{};
+  /// The trimlines as the job gives them; those of the blend run by the correspondence.
+  std::array<std::optional<Trimline>, 2> lines{};
 };
 
 /// Throws InputError and GeometryError with the pointer of the blend in front; adds to `warnings`.

@@ -36,6 +36,24 @@ BuiltTrimline from_edges(const TrimlineSpec& spec, const BuiltPrimary& primary) 
           e.kept_left ? SideSpec::Keep::left : SideSpec::Keep::right, e.edge_deviation};
 }
 
+BuiltTrimline unshifted(const TrimlineSpec& spec, const BuiltPrimary& primary,
+                        const std::map<std::string, double>& constants) {
+  using Kind = TrimlineSpec::Kind;
+  switch (spec.kind) {
+    case Kind::isoline:
+      return {isoline(primary.surface, spec.direction, spec.value, spec.range), std::nullopt, 0.0};
+    case Kind::parameters:
+      return {Trimline(primary.surface, make_curve<2>(spec.curve, constants)), std::nullopt, 0.0};
+    case Kind::projected:
+      return {projected(primary.surface, make_curve<3>(spec.curve, constants), spec.along), std::nullopt,
+              0.0};
+    case Kind::edge:
+    case Kind::edge_chain:
+      return from_edges(spec, primary);
+  }
+  throw InputError("kind", "is not a trimline kind");
+}
+
 }  // namespace
 
 std::vector<BuiltPrimary> build_primaries(const JobSpec& job) {
@@ -59,20 +77,9 @@ std::vector<BuiltPrimary> build_primaries(const JobSpec& job) {
 
 BuiltTrimline build_trimline(const TrimlineSpec& spec, const BuiltPrimary& primary,
                              const std::map<std::string, double>& constants, const std::string& pointer) try {
-  using Kind = TrimlineSpec::Kind;
-  switch (spec.kind) {
-    case Kind::isoline:
-      return {isoline(primary.surface, spec.direction, spec.value, spec.range), std::nullopt, 0.0};
-    case Kind::parameters:
-      return {Trimline(primary.surface, make_curve<2>(spec.curve, constants)), std::nullopt, 0.0};
-    case Kind::projected:
-      return {projected(primary.surface, make_curve<3>(spec.curve, constants), spec.along), std::nullopt,
-              0.0};
-    case Kind::edge:
-    case Kind::edge_chain:
-      return from_edges(spec, primary);
-  }
-  throw InputError("kind", "is not a trimline kind");
+  BuiltTrimline built = unshifted(spec, primary, constants);
+  built.line = shifted(built.line, spec.shift, primary.part ? primary.part->tolerance() : 0.0);
+  return built;
 } catch (const InputError& e) {
   throw e.under(pointer);
 } catch (const GeometryError& e) {

@@ -14,6 +14,7 @@
 #include "kernel/exchange/step_file.hpp"
 #include "kernel/primitives/primary.hpp"
 #include "parametric/blend.hpp"
+#include "parametric/trimline/shifted.hpp"
 
 namespace blendwright {
 
@@ -45,6 +46,7 @@ struct TrimlineSpec {
   CurveSpec curve{};                                  ///< parameters, projected
   std::optional<Vec3> along{};                        ///< projected: direction; empty: closest point
   EdgeSelector edge{};                                ///< edge, edge_chain
+  std::vector<ShiftPoint> shift{};                    ///< any kind: moved along the primary by this law
 };
 
 struct BlendSideEntry {

@@ -100,7 +100,8 @@ std::vector<std::string> unused_primaries(const JobSpec& job) {
 
 bool from_step_edge(const BlendSideEntry& side) {
   using Kind = TrimlineSpec::Kind;
-  return side.trimline && (side.trimline->kind == Kind::edge || side.trimline->kind == Kind::edge_chain);
+  return side.trimline && side.trimline->shift.empty() &&
+         (side.trimline->kind == Kind::edge || side.trimline->kind == Kind::edge_chain);
 }
 
 BlendFit fit(const BlendEntry& entry, const OdeBlend& blend, const JobSpec& job,
@@ -123,7 +124,7 @@ BuiltBlend build_blend(const BlendEntry& entry, const JobSpec& job,
       std::array<std::optional<Trimline>, 2> on_v;
       for (std::size_t i = 0; i < 2; ++i)
         if (lines[i]) on_v[i] = lines[i]->line;
-      return {build_literal(entry, job, std::move(on_v), pointer), {}};
+      return {build_literal(entry, job, on_v, pointer), {}, on_v};
     }
     BlendSpec spec{{entry.sides[0].side, entry.sides[1].side}, entry.correspondence, entry.shape};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -135,7 +136,8 @@ BuiltBlend build_blend(const BlendEntry& entry, const JobSpec& job,
                            " away from its face; the blend starts on the face");
     }
     return {make_blend(lines[0]->line, lines[1]->line, spec, job.tolerance.position),
-            {spec.sides[0].keep, spec.sides[1].keep}};
+            {spec.sides[0].keep, spec.sides[1].keep},
+            {lines[0]->line, lines[1]->line}};
   } catch (const InputError& e) {
     std::vector<Problem> problems = e.problems();
     for (Problem& p : problems)

@@ -7,9 +7,9 @@
 #include "app/pipeline/build_blend.hpp"
 #include "app/view/session/blend_changes.hpp"
 #include "app/view/session/blend_grid.hpp"
+#include "app/view/session/line_changes.hpp"
 #include "kernel/base/error.hpp"
 #include "kernel/geometry/curvature.hpp"
-#include "kernel/geometry/project.hpp"
 
 namespace blendwright {
 namespace {
@@ -124,14 +124,21 @@ std::vector<SessionHandle> BlendSession::handles() const {
     if (state_->now.entries[k].literal()) continue;
     const OdeBlend& surface = blend(k).surface;
     const SurfaceDomain domain = surface.domain();
-    for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Trimline& line = *state_->now.blends[k]->lines[side];
+      const std::vector<double> places =
+          line_handle_places(*state_->now.entries[k].sides[side].trimline, line.domain().closed);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double v = line.domain().v.at(places[i]);
+        all.push_back({SessionHandle::Kind::trimline, k, side, i, v, line.jet(v).C()});
+      }
       for (std::size_t i = 0; i < handles_per_line; ++i) {
         const double v = domain.v.at(handle_place(i, domain.v_closed));
         const SurfaceJet jet = surface.jet({static_cast<double>(side), v});
         const double out = side == 0 ? 1.0 : -1.0;
-        all.push_back({SessionHandle::Kind::trimline, k, side, i, v, jet.S});
         all.push_back({SessionHandle::Kind::magnitude, k, side, i, v, jet.S + out / 3.0 * jet.Su});
       }
+    }
   }
   return all;
 }
@@ -179,21 +186,12 @@ BlendSession::Outcome BlendSession::State::drag_magnitude(const SessionHandle& h
 BlendSession::Outcome BlendSession::State::drag_line(const SessionHandle& handle, const Vec3& target) {
   ChangedEntry change{now.entries[handle.blend]};
   TrimlineSpec& spec = *change.entry.sides[handle.side].trimline;
-  if (spec.kind != TrimlineSpec::Kind::isoline)
-    return {false, "only trimlines along u or v of their primary can be moved by hand"};
-  const Trimline& line = *now.blends[handle.blend]->blend.trimlines[handle.side];
-  const CurveJet<2> at = line.pcurve().jet(handle.v);
-  const Foot foot = closest_point(line.primary(), target, UV{at.C()[0], at.C()[1]});
-  const bool along_u = spec.direction == IsoDirection::constant_u;
-  const SurfaceDomain domain = line.primary().domain();
-  const Interval range = along_u ? domain.u : domain.v;
-  double value = along_u ? foot.at.u : foot.at.v;
-  // A closed direction counts on from where the line is.
-  const double period = range.hi - range.lo;
-  if (along_u ? domain.u_closed : domain.v_closed)
-    value += period * std::round((spec.value - value) / period);
-  if (value == spec.value) return {};
-  spec.value = value;
+  const Trimline& line = *now.blends[handle.blend]->lines[handle.side];
+  if (handle.index >= line_handle_places(spec, line.domain().closed).size())
+    return {false, "there is no such handle"};
+  TrimlineSpec moved = moved_line(spec, line, handle.index, handle.reach, target);
+  if (moved.value == spec.value && moved.shift == spec.shift) return {};
+  spec = std::move(moved);
   return apply(handle.blend, std::move(change), true, true);
 }
 

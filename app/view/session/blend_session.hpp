@@ -28,12 +28,13 @@ struct SessionControl {
 /// A point on a trimline to take hold of.
 struct SessionHandle {
   enum class Kind {
-    trimline,  ///< moves the trimline along its primary, here and smoothly around
+    trimline,  ///< moves the trimline along its primary
     magnitude  ///< sits at C + T / 3; changes the magnitude here and smoothly around
   } kind = Kind::trimline;
   std::size_t blend = 0, side = 0, index = 0;  ///< index along the line
-  double v = 0.0;
+  double v = 0.0;  ///< trimline: parameter of the line as the job gives it; magnitude: of the blend
   Vec3 position;
+  enum class Reach { whole, here } reach = Reach::whole;  ///< trimline: all of it follows, or the part here
 };
 
 /// The surface as it is drawn: a grid of points with exact normals and error columns, filled anew by every
@@ -83,9 +84,12 @@ class BlendSession {
     std::string message{};  ///< for the status line; empty: nothing to say
   };
   Outcome set(std::size_t control, double value);
-  /// Moves a handle towards `target`, a point in space: a trimline along u or v moves as a whole to the
-  /// nearest place of its primary (other trimlines stay and say so), a magnitude handle runs along T: a
-  /// constant factor becomes a law with a point per handle, of a law the nearest point is scaled.
+  /// Moves a handle to the place of its primary nearest to `target`, a point in space. Reach whole: an
+  /// isoline gets another value, other trimlines are shifted by the same (du, dv) everywhere. Reach here: the
+  /// trimline's shift has a point per handle, this one moves and those nearby follow in part; a shift of two
+  /// points or more that the job has already gives the handles their places. An end on the border of the
+  /// primary stays on it. A magnitude handle runs along T: a constant factor becomes a law with a point per
+  /// handle, of a law the nearest point is scaled.
   Outcome drag(const SessionHandle& handle, const Vec3& target);
   /// Ends one gesture: everything since the last commit() is one step of undo. undo() and redo() end it too.
   void commit();

@@ -155,7 +155,7 @@ PixelBox Controller::reveal(const std::string& control) {
       "", "there is no slider \"" + control + "\", must be one of " + (known.empty() ? "none" : known));
 }
 
-void Controller::press(Button button, const Vec2& at) {
+void Controller::press(Button button, const Vec2& at, bool shift) {
   end_gesture();
   pressed_ = last_ = at;
   moved_ = false;
@@ -176,6 +176,7 @@ void Controller::press(Button button, const Vec2& at) {
   if (const auto handle = handle_at(at, handles_, state_.camera, places.panes[*pane], handle_reach)) {
     gesture_ = Gesture::handle;
     state_.held = handles_[*handle];
+    state_.held->reach = shift ? SessionHandle::Reach::here : SessionHandle::Reach::whole;
     changes_.shapes = true;
   }
 }
@@ -196,8 +197,11 @@ void Controller::drag_handle(const Vec2& at) {
   const Vec3 target = drag_target(handle, at, document().surfaces(), state_.camera, pane);
   timed([&] { return document().drag(handle, target); });
   for (const SessionHandle& h : handles_)
-    if (h.kind == handle.kind && h.blend == handle.blend && h.side == handle.side && h.index == handle.index)
+    if (h.kind == handle.kind && h.blend == handle.blend && h.side == handle.side &&
+        h.index == handle.index) {
       state_.held = h;
+      state_.held->reach = handle.reach;
+    }
 }
 
 void Controller::move(const Vec2& at) {

@@ -68,7 +68,7 @@ class Controller {
   }
 
   enum class Button { left, middle, right };
-  void press(Button button, const Vec2& at);
+  void press(Button button, const Vec2& at, bool shift = false);
   void move(const Vec2& at);
   void release(const Vec2& at);
   void wheel(double steps, const Vec2& at);

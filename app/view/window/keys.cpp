@@ -36,6 +36,7 @@ constexpr ViewKey keys[] = {{ViewAction::help, "H", "?", "shows or hides this he
                             {ViewAction::quit, "Q", "", "ends"}};
 
 constexpr ViewGesture gestures[] = {{"left drag", "a slider or a handle; else turns"},
+                                    {"Shift drag", "a blue handle: the trimline moves here only"},
                                     {"click", "picks a point"},
                                     {"middle drag", "moves the view"},
                                     {"wheel", "zooms"}};
@@ -62,7 +63,7 @@ std::span<const ViewGesture> view_gestures() { return gestures; }
 
 TypedKey typed_key(const std::string& written) {
   const std::string small = lower(written);
-  TypedKey key{written, small.rfind(control_mark, 0) == 0};
+  TypedKey key{written, small.rfind(control_mark, 0) == 0, false};
   if (key.control) key.symbol = written.substr(control_mark.size());
   if (key.symbol == "?") key.symbol = "question";
   return key;

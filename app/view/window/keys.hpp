@@ -57,7 +57,7 @@ struct ViewGesture {
 /// A key as scripts write it: "Ctrl+Z" is z with control.
 struct TypedKey {
   std::string symbol;  ///< as X names it
-  bool control = false;
+  bool control = false, shift = false;
 };
 [[nodiscard]] TypedKey typed_key(const std::string& written);
 

@@ -19,6 +19,7 @@ constexpr int drag_steps = 6;
 constexpr ViewScriptCommand commands[] = {
     {"drag", "SLIDER VALUE", "drags a slider (its name in quotes, or its label) to a value"},
     {"drag-handle", "INDEX DX DY", "drags a handle of the shown blend by pixels"},
+    {"bend-handle", "INDEX DX DY", "the same with Shift held: a trimline moves here only"},
     {"click", "X Y", "clicks"},
     {"orbit", "DX DY", "drags the background with the left button, from the middle of the first pane"},
     {"pan", "DX DY", "the same with the middle button"},
@@ -125,7 +126,8 @@ class Replay {
     const auto number = [&](std::size_t i) { return *number_of(s.words[i]); };
     const auto point = [&](std::size_t i) { return Vec2(number(i), number(i + 1)); };
     if (s.command == "drag") slider(s.words[0], number(1));
-    if (s.command == "drag-handle") handle(number(0), point(1));
+    if (s.command == "drag-handle") handle(number(0), point(1), false);
+    if (s.command == "bend-handle") handle(number(0), point(1), true);
     if (s.command == "click") click(point(0));
     if (s.command == "orbit") drag(Event::left_down, Event::left_up, empty_place(), point(0));
     if (s.command == "pan") drag(Event::middle_down, Event::middle_up, pane_middle(), point(0));
@@ -152,8 +154,8 @@ class Replay {
   }
 
   /// `by` is downwards positive, the window's pixels upwards.
-  void drag(Event down, Event up, const Vec2& from, const Vec2& by) {
-    window_.send(down, from);
+  void drag(Event down, Event up, const Vec2& from, const Vec2& by, bool shift = false) {
+    window_.send(down, from, TypedKey{.symbol = {}, .shift = shift});
     for (int i = 1; i <= drag_steps; ++i)
       window_.send(Event::move, from + Vec2(by.x(), -by.y()) * i / drag_steps);
     window_.send(up, from + Vec2(by.x(), -by.y()));
@@ -178,7 +180,7 @@ class Replay {
     }
   }
 
-  void handle(double index, const Vec2& by) {
+  void handle(double index, const Vec2& by, bool shift) {
     std::vector<SessionHandle> shown;
     for (const SessionHandle& h : controller_.handles())
       if (h.blend == controller_.state().group) shown.push_back(h);
@@ -187,7 +189,7 @@ class Replay {
                                std::to_string(shown.size()) + " (exclusive)");
     const PixelBox pane = controller_.layout().panes[controller_.state().active];
     drag(Event::left_down, Event::left_up,
-         controller_.state().camera.pixel(shown[static_cast<std::size_t>(index)].position, pane), by);
+         controller_.state().camera.pixel(shown[static_cast<std::size_t>(index)].position, pane), by, shift);
   }
 
   void click(const Vec2& at) {

@@ -79,7 +79,7 @@ class ViewWindow::Style : public vtkInteractorStyle {
     window_->draw();
   }
   void down(Controller::Button button) {
-    give([&](Controller& c) { c.press(button, at()); });
+    give([&](Controller& c) { c.press(button, at(), GetInteractor()->GetShiftKey() != 0); });
   }
   void up() {
     give([&](Controller& c) { c.release(at()); });
@@ -191,8 +191,8 @@ void ViewWindow::resize(int width, int height) {
 }
 
 void ViewWindow::send(Event event, const Vec2& at, const TypedKey& key) {
-  interactor_->SetEventInformation(static_cast<int>(at.x()), static_cast<int>(at.y()), key.control ? 1 : 0, 0,
-                                   0, 0, key.symbol.c_str());
+  interactor_->SetEventInformation(static_cast<int>(at.x()), static_cast<int>(at.y()), key.control ? 1 : 0,
+                                   key.shift ? 1 : 0, 0, 0, key.symbol.c_str());
   switch (event) {
     case Event::left_down:
       interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);

@@ -36,7 +36,7 @@ bool same(const TrimlineSpec& a, const TrimlineSpec& b) {
   return a.kind == b.kind &&
          (!iso || (a.direction == b.direction && a.value == b.value && a.range == b.range)) &&
          same(a.curve, b.curve) && a.along == b.along && a.edge.near == b.edge.near &&
-         a.edge.curve == b.edge.curve;
+         a.edge.curve == b.edge.curve && a.shift == b.shift;
 }
 template <class T, class Same>
 bool same(const std::optional<T>& a, const std::optional<T>& b, Same both) {
@@ -105,6 +105,12 @@ void change_side(BlendSideEntry& entry, Rng& rng) {
 }
 
 void change_trimline(TrimlineSpec& line, Rng& rng) {
+  if (integer(rng, 0, 1) == 0) {
+    line.shift.clear();
+    const int points = integer(rng, 0, 8);
+    for (int i = 0; i < points; ++i)
+      line.shift.push_back({(i + uniform(rng, 0.0, 0.9)) / points, Vec2(any_number(rng), any_number(rng))});
+  }
   if (line.kind == TrimlineSpec::Kind::isoline) {
     line.value = any_number(rng);
     if (integer(rng, 0, 2) == 0) {

@@ -106,13 +106,12 @@ TEST(BlendSession, ValuesThatCannotBeLeaveEverythingAsItWas) {
 
 TEST(BlendSession, MagnitudeHandlesFollowTheHand) {
   BlendSession s = opened("open-blend");
-  const SessionHandle h = s.handles()[7];
-  ASSERT_EQ(h.kind, SessionHandle::Kind::magnitude);
+  const SessionHandle h = test::handle(s, SessionHandle::Kind::magnitude, 0, 3);
   const SurfaceJet jet = s.blend(0).surface.jet({static_cast<double>(h.side), h.v});
   const Vec3 target = jet.S + 1.5 * (h.position - jet.S);
   ASSERT_TRUE(s.drag(h, target).done);
   // The law is a spline through this handle's own value.
-  EXPECT_LE((s.handles()[7].position - target).norm(),
+  EXPECT_LE((test::handle(s, SessionHandle::Kind::magnitude, 0, 3).position - target).norm(),
             1e-12 * (target - jet.S).norm() + 1e-12 * target.norm());
   EXPECT_TRUE(s.changed());
 }

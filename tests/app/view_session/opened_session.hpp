@@ -32,6 +32,12 @@ inline std::size_t control(const BlendSession& session, const std::string& label
     if (all[i].label == label) return i;
   throw std::out_of_range("no control " + label);
 }
+inline SessionHandle handle(const BlendSession& session, SessionHandle::Kind kind, std::size_t side,
+                            std::size_t index) {
+  for (const SessionHandle& h : session.handles())
+    if (h.kind == kind && h.side == side && h.index == index) return h;
+  throw std::out_of_range("no handle " + std::to_string(index));
+}
 inline bool same_grid(const SessionGrid& a, const SessionGrid& b) {
   return a.positions == b.positions && a.normals == b.normals && a.gap == b.gap &&
          a.angle_deg == b.angle_deg && a.curvature_jump == b.curvature_jump && a.origin == b.origin;

@@ -26,10 +26,15 @@ BlendSession::Outcome random_drag(BlendSession& s, std::mt19937_64& random) {
                                   : c.low + (c.high - c.low) * part(random));
   }
   if (handles.empty()) return {};
-  const SessionHandle h = handles[random() % handles.size()];
+  SessionHandle h = handles[random() % handles.size()];
+  if (random() % 2 == 0) h.reach = SessionHandle::Reach::here;
   const double step = 0.1 * test::size_of(s.grid(h.blend));
   const Vec3 by(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5);
   return s.drag(h, h.position + step * by);
+}
+
+std::array<Trimline, 2> lines_of(const BlendSession& s) {
+  return {*s.blend(0).trimlines[0], *s.blend(0).trimlines[1]};
 }
 
 class Dragged : public testing::TestWithParam<const char*> {};
@@ -41,9 +46,14 @@ TEST_P(Dragged, BoundariesHoldHistoryReturnsAndTheTextIsTheShape) {
   EXPECT_EQ(first_text, test::example_text(GetParam()));
   const SessionGrid first = s.grid(0);
   std::size_t done = 0;
+  std::array<std::size_t, 2> moved{0, 0};  // trimlines that another place of the job says
   for (int i = 0; i < 200; ++i) {
     const SessionGrid before = s.grid(0);
+    const std::array<Trimline, 2> lines = lines_of(s);
     const BlendSession::Outcome outcome = random_drag(s, random);
+    const std::array<Trimline, 2> after = lines_of(s);
+    for (std::size_t side = 0; side < 2; ++side)
+      moved[side] += lines[side].jet(0.3).C() != after[side].jet(0.3).C();
     if (outcome.done) {
       ++done;
     } else {
@@ -55,6 +65,8 @@ TEST_P(Dragged, BoundariesHoldHistoryReturnsAndTheTextIsTheShape) {
     s.commit();
   }
   EXPECT_GT(done, 100U);
+  // Typed boundary data have no handles.
+  for (const std::size_t count : moved) EXPECT_GE(count, s.handles().empty() ? 0U : 10U);
   const SessionGrid last = s.grid(0);
   EXPECT_FALSE(same_grid(first, last));
   const std::string last_text = s.saved_text();
@@ -71,7 +83,9 @@ TEST_P(Dragged, BoundariesHoldHistoryReturnsAndTheTextIsTheShape) {
   EXPECT_EQ(last_text, s.saved_text());
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, Dragged, testing::Values("open-blend", "varying-magnitude", "fig2-eq9"));
+INSTANTIATE_TEST_SUITE_P(Examples, Dragged,
+                         testing::Values("open-blend", "varying-magnitude", "fig2-eq9", "branch-to-main",
+                                         "leaning-cylinder", "step-transition"));
 
 double rate(const std::function<void(int)>& reshape) {
   const auto start = std::chrono::steady_clock::now();
@@ -93,8 +107,7 @@ TEST(BlendSession, PrintsReshapesPerSecond) {
 
 TEST(BlendSession, TrimlinesFollowTheHandAlongTheirPrimary) {
   BlendSession s = opened("open-blend", 200);
-  const SessionHandle h = s.handles()[6];
-  ASSERT_EQ(h.kind, SessionHandle::Kind::trimline);
+  const SessionHandle h = test::handle(s, SessionHandle::Kind::trimline, 0, 3);
   const Surface& panel = s.blend(0).trimlines[0]->primary();
   double moved = 0.0;
   std::cout << "reshapes per second of 200 x 200: trimline " << rate([&](int i) {

@@ -70,13 +70,30 @@ TEST(ViewJob, ASavedJobShowsTheSameAgain) {
 }
 
 TEST(ViewJob, AHandleMovesAndErrorsStayAtRounding) {
-  const Viewed v = viewed(job, "state\ndrag-handle 1 10 12\nkey Ctrl+Z\nkey Ctrl+Y\n");
+  const Viewed v = viewed(job, "state\ndrag-handle 8 10 12\nkey Ctrl+Z\nkey Ctrl+Y\n");
   ASSERT_EQ(v.states.size(), 4u) << v.err;
   EXPECT_GE(v.states[0].find("handles")->items()->size(), 8u);
   EXPECT_TRUE(*v.states[1].find("changed")->boolean());
   for (const JsonValue& s : v.states) EXPECT_LE(*s.find("worst_gap")->number(), 1e-12);
   EXPECT_EQ(json_text(*v.states[2].find("handles")), json_text(*v.states[0].find("handles")));
   EXPECT_EQ(json_text(*v.states[3].find("handles")), json_text(*v.states[1].find("handles")));
+}
+
+TEST(ViewJob, WithShiftATrimlineMovesAtItsHandleOnly) {
+  const Viewed v = viewed(job, "state\nbend-handle 2 0 25\nkey Ctrl+Z\ndrag-handle 2 0 25\n");
+  ASSERT_EQ(v.states.size(), 4u) << v.err;
+  const auto moved = [&](std::size_t state, std::size_t handle) {
+    const auto place = [&](std::size_t s) {
+      return json_text((*v.states[s].find("handles")->items())[handle]);
+    };
+    return place(state) != place(0);
+  };
+  EXPECT_TRUE(moved(1, 2));
+  EXPECT_FALSE(moved(1, 6));  // opposite on a closed line
+  EXPECT_FALSE(moved(2, 2));
+  EXPECT_TRUE(moved(3, 2));
+  EXPECT_TRUE(moved(3, 6));
+  for (const JsonValue& s : v.states) EXPECT_LE(*s.find("worst_gap")->number(), 1e-12);
 }
 
 TEST(ViewJob, ChoicesAreClickedAndUndone) {
@@ -112,7 +129,8 @@ TEST(ViewJob, RandomDragsKeepTheJointsExact) {
       events.append("drag \"").append(name).append("\" ").append(
           std::to_string(log_uniform(rng, 0.5, 3.0))) += "\n";
     } else {
-      events.append("drag-handle ").append(std::to_string(integer(rng, 0, 31)));
+      events.append(integer(rng, 0, 1) == 0 ? "drag-handle " : "bend-handle ")
+          .append(std::to_string(integer(rng, 0, 31)));
       for (int k = 0; k < 2; ++k) events.append(" ").append(std::to_string(integer(rng, -9, 9)));
       events += "\n";
     }
