@@ -22,6 +22,7 @@ const std::map<std::string, bool> expected{
     {"fig7-eq14-printed", false}, {"leaning-cylinder", true},   {"open-blend", true},
     {"step-transition", true},    {"varying-magnitude", true},  {"fit-rolling-ball", true},
     {"fit-fairest", true},        {"fit-through-points", true}, {"fit-clearance", true},
+    {"moved-trimline", true},
 };
 
 TEST(Examples, AreJudgedAsExpected) {
