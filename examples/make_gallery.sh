@@ -43,3 +43,10 @@ click 700 600
 screenshot $PWD/gallery/view.png
 EOF
 "$program" view specs/branch-to-main.json --script "$work/view.txt" --width 1000 --height 750 >"$work/view.states"
+cat >"$work/view-scene.txt" <<EOF
+drag bar/a 11
+drag bar/n1 4
+drag "soft bar/w1" 0.7
+screenshot $PWD/gallery/view-scene.png
+EOF
+"$program" view scenes/s0-12ab.json --script "$work/view-scene.txt" --width 1000 --height 750 >"$work/view-scene.states"

@@ -34,7 +34,10 @@ const ObjectInfo& scene_object() {
         "false: what is legal but probably not meant is a warning instead of an error; default true"},
        {"let", "constants", "named constants for formulas; later ones may use earlier ones"},
        {"nodes", "nodes", "nodes by name, in any order"},
-       {"solid", "node", "the node whose solid is meant: its name, or the node itself", true}}};
+       {"solid", "node", "the node whose solid is meant: its name, or the node itself", true},
+       {"adjust", "adjust",
+        "numbers that \"view\" has sliders for: node/key, or node/key/index of a list, and the lowest and "
+        "highest value"}}};
   return scene;
 }
 

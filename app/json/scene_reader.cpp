@@ -185,6 +185,7 @@ struct ReadText {
   JsonValue root;
   Reading reading;
   SceneSpec spec;
+  std::vector<SceneAdjust> adjust;
 };
 
 void read_nodes(ObjectReader& object, NodesReader& nodes, Reading& reading) {
@@ -203,7 +204,7 @@ void read_nodes(ObjectReader& object, NodesReader& nodes, Reading& reading) {
 }
 
 ReadText read_text(std::string_view text, const std::string& solid) {
-  ReadText read{parse_json(text, shortest_scene), {}, {}};
+  ReadText read{parse_json(text, shortest_scene), {}, {}, {}};
   ObjectReader object(read.root, "", scene_object(), read.reading);
   if (!read.root.members()) return read;
   SceneSpec& spec = read.spec;
@@ -217,6 +218,8 @@ ReadText read_text(std::string_view text, const std::string& solid) {
   if (const JsonValue* value = object.find("solid"))
     if (const auto chosen = nodes.read_reference(*value, object.at("solid"))) spec.solid = chosen->name;
   if (!solid.empty()) spec.solid = solid;
+  if (const JsonValue* value = object.find("adjust"))
+    read.adjust = read_adjust(*value, object.at("adjust"), spec, read.reading);
   return read;
 }
 
@@ -263,7 +266,8 @@ SceneFile build_scene_text(std::string_view text, const std::filesystem::path& f
   if (!solid.empty()) require_node(spec, solid);
   try {
     Scene scene = build_scene(spec);
-    return {file == "-" ? "scene" : file.stem().string(), hash_text(text), std::move(spec), std::move(scene)};
+    return {file == "-" ? "scene" : file.stem().string(), hash_text(text), std::move(spec), std::move(scene),
+            std::move(read.adjust)};
   } catch (const InputError& e) {
     read.reading.add(e);
     read.reading.finish(read.root);

@@ -2,7 +2,7 @@
 // Scene files: JSON with comments -> SceneSpec -> Scene.
 //
 //   {"unit": "mm", "strict": true, "let": {"r": 3}, "nodes": {"<name>": {"kind": ..., ...}, ...}, "solid":
-//   "<name>"}
+//   "<name>", "adjust": {"<name>/<key>": [lowest, highest], ...}}
 //
 // A node stands wherever a node is expected, by its name or as an object in place; such an inner node is
 // named by its JSON pointer. Numbers may be constant formulas ("2*pi*r").
@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/json/scene_adjust.hpp"
 #include "implicit/scene/scene.hpp"
 
 namespace blendwright {
@@ -27,6 +28,7 @@ struct SceneFile {
   std::string source_hash{};  ///< of the text
   SceneSpec spec;
   Scene scene;
+  std::vector<SceneAdjust> adjust{};  ///< in the order of the file
 };
 /// Reads and builds; `solid`, when not empty, replaces the scene's. Throws InputError with the problems of
 /// the text and of the scene together, in the order of the file.

@@ -73,6 +73,7 @@ std::string scene_schema() {
 
   Value definitions = common_types();
   definitions.add("unit", family_schema(word_family("unit")));
+  definitions.add("adjust", map_of(exactly(reference("number"), 2)));
   definitions.add("nodes", map_of(reference("node_object")));
   definitions.add("node", either({Value::object({{"type", "string"}, {"description", "the name of a node"}}),
                                   reference("node_object")}));

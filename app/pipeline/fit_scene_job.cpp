@@ -3,8 +3,8 @@
 #include <charconv>
 #include <map>
 
-#include "app/json/json_places.hpp"
 #include "app/json/json_value.hpp"
+#include "app/json/scene_writer.hpp"
 #include "kernel/base/error.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/exchange/mesh_files.hpp"
@@ -37,50 +37,6 @@ InputError as_typed(const InputError& error) {
     if (p.where.starts_with("unknowns/")) p.where = "--unknown";
   }
   return InputError(std::move(problems));
-}
-
-/// Keys and list indices of a JSON pointer.
-JsonEdit::Path path_of(const std::string& pointer) {
-  JsonEdit::Path path;
-  std::string part;
-  for (std::size_t i = 1; i <= pointer.size(); ++i) {
-    if (i == pointer.size() || pointer[i] == '/') {
-      path.push_back(std::move(part));
-      part.clear();
-    } else if (pointer[i] == '~' && i + 1 < pointer.size()) {
-      part += pointer[++i] == '1' ? '/' : '~';
-    } else {
-      part += pointer[i];
-    }
-  }
-  return path;
-}
-
-JsonValue json_of(const NodeValue& value) {
-  if (const double* x = std::get_if<double>(&value)) return *x;
-  JsonValue::Array items;
-  for (const double x : std::get<std::vector<double>>(value)) items.emplace_back(x);
-  return items;
-}
-
-/// The text with every number of `after` that differs from `before`.
-std::string changed_text(const std::string& text, const SceneSpec& before, const SceneSpec& after) {
-  JsonEdit edit(text, json_place(text).begin, [](const JsonValue& v) { return v; });
-  for (std::size_t i = 0; i < after.nodes.size(); ++i) {
-    const NodeSpec &old = before.nodes[i], &node = after.nodes[i];
-    const JsonEdit::Path at = path_of(node.where.empty() ? "/nodes/" + pointer_part(node.name) : node.where);
-    const auto below = [&](const std::string& key) {
-      JsonEdit::Path path = at;
-      path.push_back(key);
-      return path;
-    };
-    for (const auto& [key, value] : node.values)
-      if (const auto known = old.values.find(key); known == old.values.end() || known->second != value)
-        edit.set(below(key), json_of(value));
-    for (const auto& [key, value] : old.values)
-      if (!node.values.contains(key)) edit.remove(below(key));
-  }
-  return edit.text();
 }
 
 }  // namespace
@@ -128,11 +84,7 @@ SceneFitOutcome run_scene_fit(const std::string& text, const std::string& file, 
   } catch (const InputError& e) {
     throw as_typed(e);
   }
-  outcome.text = changed_text(text, outcome.before.spec, outcome.fit.spec);
-  // What is written is what was found: the text is read again, and is a scene.
-  const SceneFile again = build_scene_text(outcome.text, file);
-  if (again.spec != outcome.fit.spec)
-    throw std::logic_error("the fitted scene's text reads back as another scene");
+  outcome.text = scene_text(text, outcome.fit.spec);
   return outcome;
 }
 

@@ -62,6 +62,18 @@ BadScene flags(std::string name, const std::string& solid, const std::string& fl
           flags};
 }
 
+/// A sound scene with adjustable numbers; `below`: where, inside "adjust".
+BadScene adjust(std::string name, const std::string& entries, const std::string& below, std::string words,
+                int problems = 1) {
+  return {std::move(name),
+          "{ \"nodes\": {" + sound + " },\n  \"solid\": \"soft\",\n  \"adjust\": " + entries + " }",
+          "/adjust" + below,
+          std::move(words),
+          3,
+          "",
+          problems};
+}
+
 std::string chain(int count) {
   std::string text = "{ \"nodes\": {\n";
   for (int i = 0; i < count; ++i)
@@ -254,6 +266,46 @@ std::vector<BadScene> values() {
   };
 }
 
+std::vector<BadScene> adjusted() {
+  return {
+      adjust("adjust_wrong_type", "[1, 2]", "", "must be an object: {\"NODE/KEY\": [lowest, highest], ...}"),
+      adjust("adjust_without_a_key", R"({ "ball": [1, 9] })", "/ball", "must be named NODE/KEY"),
+      adjust("adjust_of_nothing", R"({ "": [1, 9] })", "/", "must be named NODE/KEY"),
+      adjust("adjust_node_unknown", R"({ "bal/a": [1, 9] })", "/bal~1a", "did you mean \"ball\""),
+      adjust("adjust_key_unknown", R"({ "bar/n3": [1, 9] })", "/bar~1n3",
+             "a superquadric can be adjusted in \"a\", \"b\", \"c\", \"n1\" or \"n2\""),
+      adjust("adjust_key_misspelt", R"({ "segment/radus": [1, 9] })", "/segment~1radus",
+             "did you mean \"radius\""),
+      adjust("adjust_a_word", R"({ "soft/potential": [0, 1] })", "/soft~1potential",
+             "is about \"potential\", which is \"blanc\""),
+      adjust("adjust_a_node", R"({ "soft/distance": [0, 1] })", "/soft~1distance", "which is a node"),
+      adjust("adjust_kind", R"({ "soft/kind": [0, 1] })", "/soft~1kind", "is about \"kind\""),
+      adjust("adjust_a_whole_list", R"({ "moved/move": [0, 4] })", "/moved~1move",
+             "must say which number, as in \"moved/move/0\""),
+      adjust("adjust_beyond_a_list", R"({ "moved/move/3": [0, 4] })", "/moved~1move~13", "is about item 3"),
+      adjust("adjust_item_of_a_number", R"({ "ball/a/0": [0, 4] })", "/ball~1a~10",
+             "must be about \"ball/a\""),
+      adjust("adjust_list_left_out", R"({ "moved/axis/0": [0, 4] })", "/moved~1axis~10",
+             "which the node leaves out; write it there first"),
+      adjust("adjust_no_range", R"({ "ball/a": 4 })", "/ball~1a", "must be a list of 2 numbers"),
+      adjust("adjust_three_numbers", R"({ "ball/a": [1, 4, 9] })", "/ball~1a", "must be a list of 2 numbers"),
+      adjust("adjust_no_numbers", R"({ "ball/a": ["low", 9] })", "/ball~1a/0", "is not known"),
+      adjust("adjust_crossed", R"({ "ball/a": [9, 1] })", "/ball~1a",
+             "is [9, 1], must be the lowest value, then a higher one"),
+      adjust("adjust_empty_range", R"({ "ball/a": [4, 4] })", "/ball~1a", "then a higher one"),
+      adjust("adjust_value_outside", R"({ "ball/a": [5, 9] })", "/ball~1a",
+             "is [5, 9], must hold the scene's own value, 4"),
+      adjust("adjust_default_outside", R"({ "soft/softness": [0.5, 1] })", "/soft~1softness",
+             "must hold the scene's own value, 0"),
+      adjust("adjust_beyond_the_key", R"({ "ball/a": [-1, 9] })", "/ball~1a/0",
+             "is -1, must be > 0 as \"a\" must"),
+      adjust(
+          "adjust_many",
+          R"({ "bal/a": [1, 9], "ball/a": [9, 1], "ball/q": [1, 2], "bar/a": [3, 4], "moved/move/0": [0, 2] })",
+          "/bar~1a", "must hold the scene's own value, 2", 4),
+  };
+}
+
 std::vector<BadScene> meshes() {
   return {
       flags("solid_flag_unknown", "soft", "--solid sfot", "--solid", "did you mean \"soft\""),
@@ -276,7 +328,7 @@ std::vector<BadScene> meshes() {
 
 std::vector<BadScene> bad_scenes() {
   std::vector<BadScene> all = texts();
-  for (auto* more : {values, meshes})
+  for (auto* more : {values, adjusted, meshes})
     for (BadScene& bad : more()) all.push_back(std::move(bad));
   return all;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/json/json_value.hpp"
+#include "app/json/scene_writer.hpp"
 #include "tests/app/program.hpp"
 
 namespace blendwright::test {
@@ -197,6 +198,47 @@ TEST(SceneReader, KeepsTheNameAndHashOfTheFile) {
   EXPECT_EQ(scene.source_hash.size(), 16u);
   EXPECT_NE(scene.source_hash, build_scene_text(text + " ", "parts/ball.json").source_hash);
   EXPECT_EQ(build_scene_text(text, "-").name, "scene");
+}
+
+TEST(SceneReader, ReadsAdjustableNumbersAndLeavesTheSceneAsItIs) {
+  const std::string start = R"({ "let": { "most": 9 }, "nodes": {
+    "a/b": { "kind": "place", "of": { "kind": "sphere", "radius": 4 }, "move": [1, 2, 3] } }, "solid": "a/b")";
+  const SceneFile plain = build_scene_text(start + " }", "x.json");
+  EXPECT_TRUE(plain.adjust.empty());
+  const SceneFile scene = build_scene_text(
+      start +
+          R"(, "adjust": { "a/b/move/1": [-2, "most"], "/nodes/a~1b/of/radius": [1, 9], "a/b/scale": [0.5, 2] } })",
+      "x.json");
+  EXPECT_EQ(scene.spec, plain.spec);
+  ASSERT_EQ(scene.adjust.size(), 3u);
+  EXPECT_EQ(scene.adjust[0].node, "a/b");
+  EXPECT_EQ(scene.adjust[0].key, "move");
+  EXPECT_EQ(scene.adjust[0].index, 1u);
+  EXPECT_EQ(scene.adjust[0].range.lo, -2.0);
+  EXPECT_EQ(scene.adjust[0].range.hi, 9.0);
+  EXPECT_EQ(adjusted_number(scene.spec, scene.adjust[0]), 2.0);
+  EXPECT_EQ(adjusted_number(scene.spec, scene.adjust[1]), 4.0);
+  EXPECT_EQ(adjusted_number(scene.spec, scene.adjust[2]), 1.0);  // the default of what is left out
+  for (const SceneAdjust& a : scene.adjust)
+    EXPECT_EQ(adjusted_number(with_number(scene.spec, a, 1.25), a), 1.25) << a.name;
+}
+
+TEST(SceneWriter, WidensTheRangeOfANumberThatLeavesIt) {
+  const std::string text = R"({ "solid": { "kind": "lp_metric", "a": 4, "b": 4, "c": 4, "n": 2 }, // a ball
+  "adjust": { "/solid/a": [2, 6], "/solid/b": [3, 5] } })";
+  SceneSpec spec = read_scene(text);
+  for (NodeSpec& node : spec.nodes) node.values["a"] = 8.0, node.values["b"] = 2.5, node.values["c"] = 3.0;
+  EXPECT_EQ(scene_text(text, spec),
+            R"({ "solid": { "kind": "lp_metric", "a": 8, "b": 2.5, "c": 3, "n": 2 }, // a ball
+  "adjust": { "/solid/a": [2, 8], "/solid/b": [2.5, 5] } })");
+  EXPECT_EQ(scene_text(text, read_scene(text)), text);
+}
+
+TEST(SceneWriter, RefusesWhatWouldReadAsAnotherScene) {
+  const std::string text = R"({ "solid": { "kind": "lp_metric", "a": 4, "b": 4, "c": 4, "n": 2 } })";
+  SceneSpec spec = read_scene(text);
+  spec.strict = false;  // no number
+  EXPECT_THROW((void)scene_text(text, spec), InputError);
 }
 
 }  // namespace

@@ -37,6 +37,8 @@ TEST(SceneSchema, AcceptsEveryExample) {
 TEST(SceneSchema, RefusesWhatTheReaderRefusesForItsForm) {
   const std::string ball = R"({ "kind": "lp_metric", "a": 2, "b": 2, "c": 2, "n": 2 })";
   EXPECT_THAT(violations("{ \"solid\": " + ball + " }"), IsEmpty());
+  EXPECT_THAT(violations("{ \"solid\": " + ball + ", \"adjust\": { \"/solid/a\": [1, \"2*pi\"] } }"),
+              IsEmpty());
   for (const char* solid :
        {"3", "[]", "{}", R"({ "kind": "lp_metrc", "a": 2, "b": 2, "c": 2, "n": 2 })",
         R"({ "kind": "lp_metric", "a": 2, "b": 2, "c": 2 })",
@@ -52,9 +54,11 @@ TEST(SceneSchema, RefusesWhatTheReaderRefusesForItsForm) {
     SCOPED_TRACE(solid);
     EXPECT_THAT(violations(std::string("{ \"solid\": ") + solid + " }"), Not(IsEmpty()));
   }
-  for (const char* text : {"[]", "{}", R"({ "solid": "a", "units": "mm" })",
-                           R"({ "solid": "a", "unit": "mile" })", R"({ "solid": "a", "nodes": [] })",
-                           R"({ "solid": "a", "nodes": { "a": "b" } })", R"({ "solid": "a", "strict": 1 })"})
+  for (const char* text :
+       {"[]", "{}", R"({ "solid": "a", "units": "mm" })", R"({ "solid": "a", "unit": "mile" })",
+        R"({ "solid": "a", "nodes": [] })", R"({ "solid": "a", "nodes": { "a": "b" } })",
+        R"({ "solid": "a", "strict": 1 })", R"({ "solid": "a", "adjust": [] })",
+        R"({ "solid": "a", "adjust": { "a/b": 1 } })", R"({ "solid": "a", "adjust": { "a/b": [1, 2, 3] } })"})
     EXPECT_THAT(violations(text), Not(IsEmpty())) << text;
 }
 

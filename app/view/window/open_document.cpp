@@ -6,8 +6,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "app/json/json_value.hpp"
-#include "app/pipeline/mesh_job.hpp"
 #include "app/view/window/blend_document.hpp"
+#include "app/view/window/scene_document.hpp"
 #include "kernel/base/error.hpp"
 #include "kernel/exchange/mesh_files.hpp"
 #include "kernel/exchange/vtk_messages.hpp"
@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the text is when it is JSON: a scene has nodes, a report says which program made it.
+/// What the text is when it is JSON: a scene has nodes or a solid, a report says which program made it.
 enum class JsonKind { job, scene, report };
 JsonKind kind_of(const std::string& text) {
   try {
     const JsonValue document = parse_json(text);
-    if (document.find("nodes")) return JsonKind::scene;
+    if (document.find("nodes") || document.find("solid")) return JsonKind::scene;
     if (document.find("verified")) return JsonKind::report;
   } catch (const InputError&) {
     return JsonKind::job;  // whose reader says what is wrong
@@ -46,14 +46,6 @@ TriMesh mesh_of(vtkPolyData& data) {
                               static_cast<std::uint32_t>(corners[2])});
   }
   return mesh;
-}
-
-PictureInput scene_input(const SceneFile& scene, const Progress& progress) {
-  PictureInput input;
-  input.name = scene.name;
-  input.unit = scene.spec.unit;
-  input.parts.push_back({PicturePart::Role::other, run_mesh_job(scene, {}, progress).made.mesh, {}});
-  return input;
 }
 
 }  // namespace
@@ -98,7 +90,7 @@ std::unique_ptr<Document> open_document(const std::string& file, const Progress&
     if (kind == JsonKind::report)
       throw InputError("", "is a report, must be the job or the scene that it reports on");
     if (kind == JsonKind::job) return std::make_unique<BlendDocument>(file, text);
-    return std::make_unique<FileDocument>(file, scene_input(build_scene_text(text, file), progress));
+    return std::make_unique<SceneDocument>(file, text, progress);
   }
   return std::make_unique<FileDocument>(file, read_picture_input(file, {}, progress));
 }
