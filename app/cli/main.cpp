@@ -26,7 +26,7 @@ std::span<const VerbInfo> verbs_table() {
        "blendwright compare joint.json out/joint.step --limit 1e-6"},
       {"picture", "draw a job, a scene, a STEP file or a mesh, coloured by what is to be judged",
        "blendwright picture joint.json -o joint.png --show zebra"},
-      {"view", "show files in a window; shape jobs with sliders and handles",
+      {"view", "show files in a window; shape jobs and scenes with sliders",
        "blendwright view joint.json"},
       {"inspect", "list the faces and edges of a STEP file, with selectors to paste into a job",
        "blendwright inspect part.step"},
