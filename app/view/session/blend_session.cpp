@@ -269,11 +269,8 @@ PickedPoint BlendSession::picked(std::size_t blend, UV at) const {
   return p;
 }
 
-std::string BlendSession::saved_text() {
-  std::string text = job_text(state_->text, state_->job);
-  state_->saved = state_->now;
-  return text;
-}
+std::string BlendSession::saved_text() const { return job_text(state_->text, state_->job); }
+void BlendSession::mark_saved() { state_->saved = state_->now; }
 
 JobResult BlendSession::result(const Progress& progress) const { return run_job(state_->job, progress); }
 

@@ -105,8 +105,9 @@ class BlendSession {
   [[nodiscard]] Errors errors(std::size_t blend) const;
   [[nodiscard]] PickedPoint picked(std::size_t blend, UV at) const;
 
-  /// The job's text with the changes (comments and layout kept); marks the session as saved.
-  [[nodiscard]] std::string saved_text();
+  /// The job's text with the changes (comments and layout kept).
+  [[nodiscard]] std::string saved_text() const;
+  void mark_saved();  ///< once the text is where it shall be
   /// The result as `blend` would make it, for STEP and the other formats.
   [[nodiscard]] JobResult result(const Progress& progress = {}) const;
 

@@ -179,10 +179,7 @@ bool SceneSession::undo() { return state_->step(state_->past, state_->future); }
 bool SceneSession::redo() { return state_->step(state_->future, state_->past); }
 bool SceneSession::changed() const { return state_->now != state_->saved; }
 
-std::string SceneSession::saved_text() {
-  std::string text = scene_text(state_->text, state_->spec);
-  state_->saved = state_->now;
-  return text;
-}
+std::string SceneSession::saved_text() const { return scene_text(state_->text, state_->spec); }
+void SceneSession::mark_saved() { state_->saved = state_->now; }
 
 }  // namespace blendwright

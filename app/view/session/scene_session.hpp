@@ -45,9 +45,9 @@ class SceneSession {
   bool redo();
   [[nodiscard]] bool changed() const;  ///< since the last save, or since opening
 
-  /// The scene's text with the changed numbers (comments and layout kept); marks the session as saved. Throws
-  /// as scene_text does.
-  [[nodiscard]] std::string saved_text();
+  /// The scene's text with the changed numbers (comments and layout kept). Throws as scene_text does.
+  [[nodiscard]] std::string saved_text() const;
+  void mark_saved();  ///< once the text is where it shall be
 
  private:
   struct State;

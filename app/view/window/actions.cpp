@@ -11,10 +11,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::pair<ViewAction, Show> modes[] = {
-    {ViewAction::plain, Show::plain}, {ViewAction::gap, Show::gap},
-    {ViewAction::angle, Show::angle}, {ViewAction::curvature, Show::curvature},
-    {ViewAction::zebra, Show::zebra}, {ViewAction::isophotes, Show::isophotes},
-    {ViewAction::draft, Show::draft}, {ViewAction::radius, Show::radius}};
+    {ViewAction::plain, Show::plain},        {ViewAction::gap, Show::gap},
+    {ViewAction::angle, Show::angle},        {ViewAction::curvature, Show::curvature},
+    {ViewAction::zebra, Show::zebra},        {ViewAction::isophotes, Show::isophotes},
+    {ViewAction::draft, Show::draft},        {ViewAction::radius, Show::radius},
+    {ViewAction::deviation, Show::deviation}};
 
 std::string first_problem(const Error& e) {
   const auto* input = dynamic_cast<const InputError*>(&e);
@@ -105,11 +106,12 @@ void Controller::show(Show mode) {
   state_.show = mode;
   changes_.colours = changes_.shapes = changes_.camera = true;
   if (fitted_) fit();  // a colour bar takes room
-  bool any = mode == Show::plain;
+  bool any = mode == Show::plain || mode == Show::deviation;
   for (const auto& d : documents_)
     for (std::size_t i = 0; !any && i < d->surfaces().size(); ++i)
       any = !d->values(i, mode, state_.options).empty();
   const std::string name(row_of(mode).name);
+  if (mode == Show::deviation) return measure_deviations();
   say(any ? "colours: " + name : "nothing here has the figure \"" + name + "\"", !any);
 }
 
@@ -119,6 +121,7 @@ void Controller::step_history(bool back) {
   say(done ? (back ? "taken back" : "made again") : (back ? "nothing to take back" : "nothing to make again"),
       !done);
   refresh();
+  if (done && state_.show == Show::deviation) measure_deviations();
 }
 
 void Controller::next_group() {
@@ -147,7 +150,10 @@ fs::path Controller::beside(const char* addition, const char* extension) const {
 }
 
 void Controller::save(const fs::path& to, bool replace) {
-  write_file(to, replace, "file", [&] { write_text_file(to, document().saved_text()); });
+  write_file(to, replace, "file", [&] {
+    write_text_file(to, document().saved_text());
+    document().mark_saved();
+  });
 }
 
 void Controller::write_file(const fs::path& to, bool replace, const char* what,

@@ -92,6 +92,7 @@ BlendDocument::BlendDocument(std::filesystem::path file, const std::string& text
     whole_primaries_.back().name = name;
   }
   trim_primaries();
+  first_shape_ = shape();
 }
 
 void BlendDocument::trim_primaries() {
@@ -190,6 +191,32 @@ std::vector<float> BlendDocument::curvature_values(std::size_t blend, Show show,
     }
   });
   return values;
+}
+
+PictureInput BlendDocument::shape() const {
+  PictureInput input;
+  input.name = file_.stem().string();
+  input.unit = unit();
+  for (std::size_t k = 0; k < session_.blends(); ++k) {
+    const SessionGrid& grid = session_.grid(k);
+    const Surface surface(session_.blend(k).surface);
+    const Interval v = surface.domain().v;
+    TriMesh mesh;
+    mesh.name = session_.job().blends[k].name;
+    mesh.triangles = triangles_;
+    Column us{"u", "", 1, {}}, vs{"v", "", 1, {}};
+    for (std::size_t i = 0; i < grid.nu; ++i)
+      for (std::size_t j = 0; j < grid.nv; ++j) {
+        const float* n = &grid.normals[3 * (i * grid.nv + j)];
+        mesh.points.push_back(grid_point(grid, i, j));
+        mesh.normals.emplace_back(n[0], n[1], n[2]);
+        us.values.push_back(fraction(i, grid.nu));
+        vs.values.push_back(v.at(fraction(j, grid.nv)));
+      }
+    mesh.columns = {std::move(us), std::move(vs)};
+    input.parts.push_back({PicturePart::Role::blend, std::move(mesh), surface});
+  }
+  return input;
 }
 
 UV BlendDocument::uv_of(const SurfaceHit& hit) const {

@@ -15,6 +15,8 @@ class BlendDocument : public Document {
   [[nodiscard]] std::vector<CombLine> comb() const override;
   [[nodiscard]] std::vector<float> values(std::size_t surface, Show show,
                                           const ShowOptions& options) const override;
+  [[nodiscard]] PictureInput shape() const override;
+  [[nodiscard]] const PictureInput* first_shape() const override { return &first_shape_; }
   [[nodiscard]] PickedPoint picked(const SurfaceHit& hit) const override;
   [[nodiscard]] std::string figures() const override;
   [[nodiscard]] std::optional<BlendSession::Errors> errors() const override;
@@ -28,7 +30,8 @@ class BlendDocument : public Document {
   bool undo() override;
   bool redo() override;
   [[nodiscard]] bool changed() const override { return session_.changed(); }
-  [[nodiscard]] std::string saved_text() override { return session_.saved_text(); }
+  [[nodiscard]] std::string saved_text() const override { return session_.saved_text(); }
+  void mark_saved() override { session_.mark_saved(); }
   void export_step(const std::filesystem::path& to) const override;
 
  private:
@@ -42,6 +45,7 @@ class BlendDocument : public Document {
   std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< of every grid
   std::vector<TriMesh> whole_primaries_;
   std::vector<DrawnMesh> primaries_;  ///< what the blends keep of them
+  PictureInput first_shape_;
   bool lines_moved_ = false;
 };
 

@@ -224,6 +224,8 @@ void Controller::end_gesture() {
   if (gesture_ == Gesture::slider || (gesture_ == Gesture::handle && moved_)) {
     timed([&] { return document().commit(); });
     --changes_.reshapes;  // the end of one is not another
+    // It takes a few tenths of a second: when the hand lets go.
+    if (state_.show == Show::deviation) measure_deviations();
   }
   gesture_ = Gesture::none;
   state_.held.reset();

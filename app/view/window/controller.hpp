@@ -58,6 +58,9 @@ class Controller {
   [[nodiscard]] std::vector<std::size_t> shown_controls() const;
   [[nodiscard]] const std::vector<SessionControl>& controls() const { return controls_; }
   [[nodiscard]] const std::vector<SessionHandle>& handles() const { return handles_; }
+  /// What document `index` is coloured by, for each of its surfaces; empty ones have no such figure. The
+  /// deviation is that from the other document, of a single one from its shape when it was opened.
+  [[nodiscard]] std::vector<std::vector<float>> colour_values(std::size_t index) const;
   [[nodiscard]] std::string window_title() const;
   [[nodiscard]] bool ended() const { return ended_; }
   /// Since the last call.
@@ -95,6 +98,10 @@ class Controller {
   void end_gesture();
   void click(const Vec2& at);
   void show(Show mode);
+  /// What document `index` deviates from.
+  [[nodiscard]] std::optional<PictureInput> deviation_target(std::size_t index) const;
+  /// Of all documents; tells that of the active one.
+  void measure_deviations();
   void fit();
   void look(const Vec3& to_eye);
   void step_history(bool back);
@@ -114,6 +121,7 @@ class Controller {
   ViewState state_;
   std::vector<SessionControl> controls_;
   std::vector<SessionHandle> handles_;
+  std::vector<std::vector<std::vector<float>>> deviations_;  ///< for each document and part, last measured
   Gesture gesture_ = Gesture::none;
   std::size_t dragged_ = 0;  ///< control, or pane of an orbit
   Vec2 pressed_ = Vec2::Zero(), last_ = Vec2::Zero();

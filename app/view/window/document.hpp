@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/pipeline/picture_comb.hpp"
+#include "app/pipeline/picture_input.hpp"
 #include "app/pipeline/show.hpp"
 #include "app/view/session/blend_session.hpp"
 
@@ -49,6 +50,11 @@ class Document {
   /// What a mode colours by, one value per point; empty: this surface has no such figure.
   [[nodiscard]] virtual std::vector<float> values(std::size_t surface, Show show,
                                                   const ShowOptions& options) const = 0;
+  /// What deviations are measured of and to, a part for each of surfaces() (primaries that stand back, and
+  /// what comes after the parts, have no triangles), with the surfaces that are known.
+  [[nodiscard]] virtual PictureInput shape() const { return {}; }
+  /// The shape as it was opened; nullptr: it cannot be changed.
+  [[nodiscard]] virtual const PictureInput* first_shape() const { return nullptr; }
   [[nodiscard]] virtual PickedPoint picked(const SurfaceHit& hit) const = 0;
   /// The worst figures, for the status line.
   [[nodiscard]] virtual std::string figures() const = 0;
@@ -68,7 +74,8 @@ class Document {
   virtual bool redo() { return false; }
   [[nodiscard]] virtual bool changed() const { return false; }
   /// Throws InputError for a file that cannot be changed.
-  [[nodiscard]] virtual std::string saved_text();
+  [[nodiscard]] virtual std::string saved_text() const;
+  virtual void mark_saved() {}  ///< once the text has been written
   /// Throws InputError when there is nothing that STEP could hold.
   virtual void export_step(const std::filesystem::path& to) const;
 };

@@ -106,6 +106,7 @@ FileDocument::FileDocument(std::filesystem::path file, PictureInput input)
   for (PicturePart& part : input.parts) {
     meshes_.emplace_back(std::move(part.mesh));
     roles_.push_back(role_of(part.role));
+    known_.push_back(part.surface);
   }
   // Primaries stand back behind blends; without a blend they are what is looked at.
   if (std::find(roles_.begin(), roles_.end(), DrawnSurface::Role::blend) == roles_.end())
@@ -127,6 +128,18 @@ std::vector<CombLine> FileDocument::comb() const {
 
 std::vector<float> FileDocument::values(std::size_t surface, Show show, const ShowOptions& options) const {
   return meshes_.at(surface).values(show, options);
+}
+
+PictureInput FileDocument::shape() const {
+  PictureInput input;
+  input.name = file_.stem().string();
+  input.unit = unit_;
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    PicturePart part{PicturePart::Role::other, meshes_[i].mesh(), known_[i]};
+    if (roles_[i] == DrawnSurface::Role::primary) part.mesh = {};  // keeps the place
+    input.parts.push_back(std::move(part));
+  }
+  return input;
 }
 
 PickedPoint FileDocument::picked(const SurfaceHit& hit) const { return meshes_.at(hit.surface).picked(hit); }

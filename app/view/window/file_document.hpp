@@ -1,5 +1,5 @@
 #pragma once
-// Private: a file that is looked at and not changed: STEP, meshes, cells, a folder of results, a scene.
+// Private: a file that is looked at and not changed: STEP, meshes, cells, a folder of results.
 #include "app/pipeline/picture_input.hpp"
 #include "app/view/window/document.hpp"
 
@@ -31,6 +31,7 @@ class FileDocument : public Document {
   [[nodiscard]] std::vector<CombLine> comb() const override;
   [[nodiscard]] std::vector<float> values(std::size_t surface, Show show,
                                           const ShowOptions& options) const override;
+  [[nodiscard]] PictureInput shape() const override;
   [[nodiscard]] PickedPoint picked(const SurfaceHit& hit) const override;
   [[nodiscard]] std::string figures() const override;
   [[nodiscard]] std::optional<BlendSession::Errors> errors() const override;
@@ -40,6 +41,7 @@ class FileDocument : public Document {
   LengthUnit unit_ = LengthUnit::millimetre;
   std::vector<DrawnMesh> meshes_;
   std::vector<DrawnSurface::Role> roles_;
+  std::vector<std::optional<Surface>> known_;  ///< what the meshes are of
   std::vector<PolyLine> lines_;
 };
 

@@ -17,6 +17,7 @@ enum class ViewAction {
   isophotes,
   draft,
   radius,
+  deviation,
   next_mode,
   comb,
   handles,

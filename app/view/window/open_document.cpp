@@ -50,7 +50,7 @@ TriMesh mesh_of(vtkPolyData& data) {
 
 }  // namespace
 
-std::string Document::saved_text() {
+std::string Document::saved_text() const {
   throw InputError("", "can only be looked at, must be a job or a scene with \"adjust\" to be saved");
 }
 

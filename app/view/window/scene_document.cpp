@@ -9,7 +9,10 @@ constexpr std::size_t comb_planes = 7, comb_hairs = 160;  // those of files
 
 SceneDocument::SceneDocument(std::filesystem::path file, const std::string& text, const Progress& progress,
                              SceneCells cells)
-    : file_(std::move(file)), session_(text, file_, cells, progress), mesh_(session_.mesh()) {}
+    : file_(std::move(file)),
+      session_(text, file_, cells, progress),
+      mesh_(session_.mesh()),
+      first_shape_(shape()) {}
 
 std::vector<DrawnSurface> SceneDocument::surfaces() const { return {mesh_.drawn(DrawnSurface::Role::other)}; }
 
@@ -19,6 +22,14 @@ std::vector<CombLine> SceneDocument::comb() const {
 
 std::vector<float> SceneDocument::values(std::size_t, Show show, const ShowOptions& options) const {
   return mesh_.values(show, options);
+}
+
+PictureInput SceneDocument::shape() const {
+  PictureInput input;
+  input.name = file_.stem().string();
+  input.unit = unit();
+  input.parts.push_back({PicturePart::Role::other, mesh_.mesh(), std::nullopt});
+  return input;
 }
 
 std::string SceneDocument::figures() const {
@@ -59,7 +70,7 @@ bool SceneDocument::redo() {
   return done;
 }
 
-std::string SceneDocument::saved_text() {
+std::string SceneDocument::saved_text() const {
   return controls().empty() ? Document::saved_text() : session_.saved_text();
 }
 

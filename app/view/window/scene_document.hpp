@@ -18,6 +18,8 @@ class SceneDocument : public Document {
   [[nodiscard]] std::vector<CombLine> comb() const override;
   [[nodiscard]] std::vector<float> values(std::size_t surface, Show show,
                                           const ShowOptions& options) const override;
+  [[nodiscard]] PictureInput shape() const override;
+  [[nodiscard]] const PictureInput* first_shape() const override { return &first_shape_; }
   [[nodiscard]] PickedPoint picked(const SurfaceHit& hit) const override { return mesh_.picked(hit); }
   [[nodiscard]] std::string figures() const override;
   [[nodiscard]] std::vector<SessionControl> controls() const override { return session_.controls(); }
@@ -27,12 +29,14 @@ class SceneDocument : public Document {
   bool undo() override;
   bool redo() override;
   [[nodiscard]] bool changed() const override { return session_.changed(); }
-  [[nodiscard]] std::string saved_text() override;
+  [[nodiscard]] std::string saved_text() const override;
+  void mark_saved() override { session_.mark_saved(); }
 
  private:
   std::filesystem::path file_;
   SceneSession session_;
   DrawnMesh mesh_;
+  PictureInput first_shape_;
 };
 
 }  // namespace blendwright

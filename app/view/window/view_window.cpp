@@ -1,6 +1,7 @@
 #include "app/view/window/view_window.hpp"
 
 #include <vtkAutoInit.h>
+#include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
 #include <vtkInteractorStyle.h>
 #include <vtkObjectFactory.h>
@@ -106,6 +107,16 @@ vtkStandardNewMacro(ViewWindow::Style)
   interactor_->SetRenderWindow(window_);
   style_->window_ = this;
   interactor_->SetInteractorStyle(style_);
+  // A person closes the window as the key Q does: changes that are not saved are asked about once.
+  vtkNew<vtkCallbackCommand> closing;
+  closing->SetClientData(this);
+  closing->SetCallback([](vtkObject*, unsigned long, void* self, void*) {
+    auto* window = static_cast<ViewWindow*>(self);
+    window->controller_.act(ViewAction::quit);
+    window->draw();
+    if (window->controller_.ended()) window->interactor_->TerminateApp();
+  });
+  interactor_->AddObserver(vtkCommand::ExitEvent, closing);
   controller_.set_picture_writer([this](const std::filesystem::path& file) { write_png(file); });
   interactor_->Initialize();
   draw();
@@ -119,17 +130,12 @@ void ViewWindow::update_colours() {
   const ViewState& state = controller_.state();
   std::vector<std::vector<std::vector<float>>> values;
   std::vector<double> all;
-  for (const auto& d : controller_.documents()) {
-    values.emplace_back();
-    for (std::size_t i = 0; state.show != Show::plain && i < d->surfaces().size(); ++i) {
-      // Primaries stand back behind the colours.
-      const bool primary = d->surfaces()[i].role == DrawnSurface::Role::primary;
-      values.back().push_back(primary ? std::vector<float>{} : d->values(i, state.show, state.options));
-      all.insert(all.end(), values.back().back().begin(), values.back().back().end());
-    }
+  for (std::size_t k = 0; k < controller_.documents().size(); ++k) {
+    values.push_back(controller_.colour_values(k));
+    for (const std::vector<float>& v : values.back()) all.insert(all.end(), v.begin(), v.end());
   }
   // Exact joints have no error at all: a bar needs some length, that of rounding.
-  const bool error = state.show == Show::gap || state.show == Show::angle;
+  const bool error = state.show == Show::gap || state.show == Show::angle || state.show == Show::deviation;
   if (error && !all.empty() && *std::max_element(all.begin(), all.end()) <= 0.0) all.push_back(rounding);
   scale_.reset();
   if (!all.empty()) scale_ = colour_scale(state.show, state.options, all);

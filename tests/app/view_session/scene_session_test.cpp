@@ -150,6 +150,8 @@ TEST(SceneSession, TheSavedTextDiffersInTheNumbersOnly) {
   replace(R"("distance": "ball" })", R"("distance": "ball", "softness": 0.5 })");
   EXPECT_TRUE(session.changed());
   EXPECT_EQ(session.saved_text(), wanted);
+  EXPECT_TRUE(session.changed());
+  session.mark_saved();
   EXPECT_FALSE(session.changed());
   const SceneSession again = opened_scene(wanted);
   EXPECT_EQ(again.spec(), session.spec());

@@ -70,6 +70,9 @@ TEST_P(Dragged, BoundariesHoldHistoryReturnsAndTheTextIsTheShape) {
   const SessionGrid last = s.grid(0);
   EXPECT_FALSE(same_grid(first, last));
   const std::string last_text = s.saved_text();
+  EXPECT_TRUE(s.changed());
+  s.mark_saved();
+  EXPECT_FALSE(s.changed());
   const BlendSession again = opened(GetParam(), last_text);
   EXPECT_TRUE(same_grid(again.grid(0), last));
   while (s.undo()) {

@@ -57,11 +57,11 @@ class SquareDocument : public Document {
   }
   bool undo() override { return ++log_.undos == 1; }
   [[nodiscard]] bool changed() const override { return changed_; }
-  [[nodiscard]] std::string saved_text() override {
+  [[nodiscard]] std::string saved_text() const override {
     ++log_.saves;
-    changed_ = false;
     return "saved";
   }
+  void mark_saved() override { changed_ = false; }
 
   std::filesystem::path file_ = "square.json";
   bool refuse_ = false, changed_ = false;
@@ -124,6 +124,18 @@ TEST(ViewController, DraggingASliderSetsWhileDraggingAndCommitsOnce) {
   EXPECT_NEAR(bench.log.sets.back().second, 4.0, 6.0 / 258.0);
   EXPECT_EQ(bench.log.commits, 1);
   EXPECT_NE(bench.controller->window_title().find("square.json*"), std::string::npos);
+}
+
+TEST(ViewController, ChangesStayUnsavedWhenTheirFileCannotBeWritten) {
+  Bench bench({.save = "/dev/null/no folder/saved.json"});
+  bench.document->changed_ = true;
+  bench.controller->act(ViewAction::save);
+  EXPECT_EQ(bench.log.saves, 1);
+  EXPECT_TRUE(bench.document->changed());
+  EXPECT_TRUE(bench.controller->state().warning);
+  EXPECT_NE(bench.controller->state().message.find("no file"), std::string::npos);
+  bench.controller->act(ViewAction::quit);
+  EXPECT_FALSE(bench.controller->ended());
 }
 
 TEST(ViewController, ARefusedValueIsToldAndNotTaken) {
