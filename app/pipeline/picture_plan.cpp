@@ -43,7 +43,10 @@ std::string figure_text(double x) {
 }
 
 /// Errors below the rounding of any length are told as 0.
-std::string error_text(double x) { return x < 1e-18 ? "0" : scientific_text(x); }
+std::string error_text(double x) {
+  if (x < 1e-18) return "0";
+  return x >= 0.01 && x < 1e5 ? number_text(x, 2) : scientific_text(x);
+}
 
 std::string point_text(const Vec3& p, double size) {
   const auto text = [&](int k) { return place_text(p[k], 1e-3 * size); };

@@ -25,9 +25,10 @@ Picture error_picture(const JobResult& result, const std::vector<TriMesh>& blend
       gap = std::max(gap, s.gap.worst);
       angle = std::max(angle, Radians(s.angle.worst).degrees());
     }
+  const auto figure = [](double x) { return x >= 0.01 && x < 1e5 ? number_text(x, 2) : scientific_text(x); };
   Picture picture;
-  picture.title = result.job.name + ": largest gap " + scientific_text(gap) + " " + unit +
-                  ", largest angle " + scientific_text(angle) + " deg";
+  picture.title = result.job.name + ": largest gap " + figure(gap) + " " + unit + ", largest angle " +
+                  figure(angle) + " deg";
   if (result.blends.size() == 1)
     picture.title += std::string(" (") + name(result.blends[0].entry.shape.mode) + " mode)";
   picture.column = "gap";

@@ -203,7 +203,8 @@ bool add_column(TriMesh& mesh, Show show, const ShowOptions& options) {
 
 double zebra_phase(const Vec3& normal, const ShowOptions& options) {
   const Vec3 r = 2.0 * normal.dot(options.to_eye) * normal - options.to_eye;
-  return options.stripes * std::acos(std::clamp(r.dot(options.up), -1.0, 1.0)) / std::numbers::pi;  // (1)
+  const double ahead = std::acos(std::clamp(r.dot(options.up), -1.0, 1.0)) / std::numbers::pi - 0.5;
+  return options.stripes * ahead + 0.25;  // (1)
 }
 
 double zebra_value(const Vec3& normal, const ShowOptions& options) {

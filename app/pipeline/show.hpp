@@ -81,7 +81,8 @@ bool add_column(TriMesh& mesh, Show show, const ShowOptions& options);
 //
 // n unit normal (its sign matters for the draft only), e to the eye, r = 2 (n.e) n - e the reflected line of
 // sight, a across the strips of light:
-//   phase = stripes arccos(r.a) / pi; light where its fraction is below 1/2                             (1)
+//   phase = stripes (arccos(r.a) / pi - 1/2) + 1/4; light where its fraction is below 1/2; straight ahead is
+//   the middle of a light strip, so that walls along the strips do not lie on the border of one         (1)
 //   angle to the light = arccos(|n.l|)                                                                  (2)
 //   draft = arcsin(n.pull): 0 where the wall stands along the pull                                      (3)
 //   least radius = 1/(|H| + sqrt(H^2 - K)), infinite for a plane                                        (4)

@@ -13,12 +13,13 @@ namespace {
 
 constexpr const char* place = "//VTK::Light::Impl";
 
-/// The eye looks along -z of the view's axes, so r.up = 2 n_z n_y. Stripes of a pixel's width blur to grey.
+/// The eye looks along -z of the view's axes, so r.up = 2 n_z n_y; light strips lie about
+/// r.up = 0. Stripes of a pixel's width blur to grey.
 constexpr const char* zebra_code = R"(//VTK::Light::Impl
   vec3 patternNormal = normalize(normalVCVSOutput);
   if (patternNormal.z < 0.0) patternNormal = -patternNormal;
   float patternUp = clamp(2.0 * patternNormal.z * patternNormal.y, -1.0, 1.0);
-  float patternWave = sin(2.0 * patternStripes * acos(patternUp));
+  float patternWave = cos(2.0 * patternStripes * asin(patternUp));
   float patternWidth = max(fwidth(patternWave), 1e-4);
   float patternLight = smoothstep(-patternWidth, patternWidth, patternWave);
   fragOutput0.rgb = vec3(mix(0.05, 0.97, patternLight) * (0.62 + 0.38 * patternNormal.z));

@@ -92,9 +92,10 @@ TEST(Show, StripesMoveWithTwiceTheTurnOfTheNormal) {
   for (const double start : {-0.6, -0.2, 0.1, 0.5})
     EXPECT_NEAR(zebra_phase(tilted(start), options) - zebra_phase(tilted(start + d), options),
                 10.0 * 2.0 * d / std::numbers::pi, 1e-9);
-  // Half a pair further: from the dark into the light.
-  EXPECT_EQ(zebra_value(tilted(0.02), options), 0.0);
-  EXPECT_EQ(zebra_value(tilted(0.02 + std::numbers::pi / 40.0), options), 1.0);
+  // Straight ahead is the middle of a light strip; half a pair further is a dark one.
+  EXPECT_EQ(zebra_value(tilted(0.0), options), 1.0);
+  EXPECT_EQ(zebra_value(tilted(0.02), options), 1.0);
+  EXPECT_EQ(zebra_value(tilted(0.02 + std::numbers::pi / 40.0), options), 0.0);
 }
 
 TEST(Show, FramesOfNormalsAreColouredAsSingleOnes) {
