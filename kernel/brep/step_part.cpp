@@ -27,6 +27,7 @@
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/occt_session.hpp"
 #include "kernel/brep/occt_surface.hpp"
+#include "kernel/brep/step_guard.hpp"
 #include "kernel/brep/step_part_impl.hpp"
 
 namespace blendwright {
@@ -178,10 +179,12 @@ StepPart StepPart::read(const std::filesystem::path& file, LengthUnit unit) {
   if (!std::filesystem::is_regular_file(file, error))
     throw IoError(file.string() + ": is not a file that can be read; give the path of a STEP file");
   const detail::ExchangeSession session(unit);
-  return detail::guarded<IoError>(file.string(), [&] {
+  StepPart result;
+  detail::read_guarded(file, [&] {
     STEPControl_Reader reader;
     if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
       throw IoError(file.string() + ": is not a STEP file (ISO 10303-21) that can be read");
+    detail::require_whole_entities(reader.WS()->Model(), file);
     reader.TransferRoots();
     auto part = std::make_shared<Impl>();
     part->shape = reader.OneShape();
@@ -194,10 +197,9 @@ StepPart StepPart::read(const std::filesystem::path& file, LengthUnit unit) {
       for (TopExp_Explorer f(s.Current(), TopAbs_FACE); f.More(); f.Next())
         part->faces[static_cast<std::size_t>(part->face_map.FindIndex(f.Current()) - 1)].solid = solid;
     }
-    StepPart result;
     result.impl_ = part;
-    return result;
   });
+  return result;
 }
 
 const std::vector<FaceInfo>& StepPart::faces() const { return impl_->faces; }

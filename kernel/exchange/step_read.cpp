@@ -17,12 +17,14 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <fstream>
 
 #include "kernel/brep/extrema_impl.hpp"
 #include "kernel/brep/occt_geometry.hpp"
 #include "kernel/brep/occt_session.hpp"
 #include "kernel/brep/occt_surface.hpp"
+#include "kernel/brep/step_guard.hpp"
 #include "kernel/exchange/step_document.hpp"
 #include "kernel/exchange/step_file.hpp"
 #include "kernel/exchange/step_shape.hpp"
@@ -78,8 +80,10 @@ StepFace step_face(const ShapeFace& face) {
   const auto spline = handle<Geom_BSplineSurface>::DownCast(g.geometry);
   std::optional<BSplineSurface> ours;
   if (spline) ours = detail::from_occt(spline);
-  return {face.name, ours ? Surface(*ours) : Surface(detail::OcctSurface(g.geometry, false, g.box)),
-          g.reversed, face.colour,
+  return {face.name,
+          ours ? Surface(*ours) : Surface(detail::OcctSurface(g.geometry, false, g.box)),
+          g.reversed,
+          face.colour,
           spline ? static_cast<std::size_t>(spline->NbUPoles() * spline->NbVPoles()) : 0,
           extrema_surface(g.geometry, g.box)};
 }
@@ -121,7 +125,7 @@ void require_file(const std::filesystem::path& file) {
 std::shared_ptr<Shape::Impl> read_document(const std::filesystem::path& file, LengthUnit unit, bool all) {
   auto shape = std::make_shared<Shape::Impl>();
   const detail::ExchangeSession session(unit);
-  detail::guarded<IoError>(file.string(), [&] {
+  detail::read_guarded(file, [&] {
     STEPCAFControl_Controller::Init();  // the names of faces are a setting that exists only after this
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
     const detail::StepDocument document;
@@ -132,6 +136,7 @@ std::shared_ptr<Shape::Impl> read_document(const std::filesystem::path& file, Le
     reader.SetLayerMode(true);
     if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
       throw IoError(file.string() + ": is not a STEP file (ISO 10303-21) that can be read");
+    detail::require_whole_entities(reader.Reader().WS()->Model(), file);
     handle<TDocStd_Document> target = document.document();
     if (!reader.Transfer(target)) throw IoError(file.string() + ": contains no shape");
     const Labels labels(document.document());
