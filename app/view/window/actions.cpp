@@ -11,11 +11,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::pair<ViewAction, Show> modes[] = {
-    {ViewAction::plain, Show::plain},        {ViewAction::gap, Show::gap},
-    {ViewAction::angle, Show::angle},        {ViewAction::curvature, Show::curvature},
-    {ViewAction::zebra, Show::zebra},        {ViewAction::isophotes, Show::isophotes},
-    {ViewAction::draft, Show::draft},        {ViewAction::radius, Show::radius},
-    {ViewAction::deviation, Show::deviation}};
+    {ViewAction::plain, Show::plain},         {ViewAction::gap, Show::gap},
+    {ViewAction::angle, Show::angle},         {ViewAction::curvature, Show::curvature},
+    {ViewAction::zebra, Show::zebra},         {ViewAction::isophotes, Show::isophotes},
+    {ViewAction::draft, Show::draft},         {ViewAction::radius, Show::radius},
+    {ViewAction::deviation, Show::deviation}, {ViewAction::field, Show::field}};
 
 std::string first_problem(const Error& e) {
   const auto* input = dynamic_cast<const InputError*>(&e);
@@ -104,6 +104,7 @@ void Controller::act(ViewAction action) {
 
 void Controller::show(Show mode) {
   state_.show = mode;
+  for (const auto& d : documents_) d->choose(mode);
   changes_.colours = changes_.shapes = changes_.camera = true;
   if (fitted_) fit();  // a colour bar takes room
   bool any = mode == Show::plain || mode == Show::deviation;

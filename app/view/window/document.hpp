@@ -47,6 +47,8 @@ class Document {
   [[nodiscard]] virtual std::vector<DrawnSurface> surfaces() const = 0;
   [[nodiscard]] virtual std::vector<PolyLine> lines() const = 0;
   [[nodiscard]] virtual std::vector<CombLine> comb() const = 0;
+  /// Which mode is chosen: some show other surfaces for it.
+  virtual void choose(Show) {}
   /// What a mode colours by, one value per point; empty: this surface has no such figure.
   [[nodiscard]] virtual std::vector<float> values(std::size_t surface, Show show,
                                                   const ShowOptions& options) const = 0;

@@ -18,6 +18,7 @@ enum class ViewAction {
   draft,
   radius,
   deviation,
+  field,
   next_mode,
   comb,
   handles,

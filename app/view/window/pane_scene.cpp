@@ -191,7 +191,8 @@ void PaneScene::update_lines(const Document& document, const ViewState& state) {
     for (std::uint32_t i = 0; i + 1 < count; ++i) lines.push_back({first + i, first + i + 1});
     if (line.closed && count > 2) lines.push_back({first + count - 1, first});
   }
-  trimlines_.fill(points, lines, false, {state.dark ? light_trimline_colour : trimline_colour});
+  trimlines_.fill(points, lines, false,
+                  {state.dark && state.show != Show::field ? light_trimline_colour : trimline_colour});
   trimlines_.mapper->SetScalarVisibility(true);
 }
 
@@ -237,6 +238,7 @@ void PaneScene::update_colours(const ViewState& state, const std::vector<std::ve
                 state.options.stripes, default_light);
     const bool coloured = !patterned && scale && i < values.size() && values[i].size() == part.points;
     part.mapper->SetScalarVisibility(coloured);
+    part.actor->GetProperty()->SetLighting(state.show != Show::field || !coloured);  // as on the bar
     if (!coloured) continue;
     part.colours->SetNumberOfComponents(3);
     part.colours->SetNumberOfTuples(static_cast<vtkIdType>(part.points));

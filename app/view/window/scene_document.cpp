@@ -1,9 +1,16 @@
 #include "app/view/window/scene_document.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "app/pipeline/field_section.hpp"
+
 namespace blendwright {
 namespace {
 
 constexpr std::size_t comb_planes = 7, comb_hairs = 160;  // those of files
+constexpr std::size_t section_cells = 240, coarse_section_cells = 80;
+constexpr double section_margin = 0.18;  // around the solid, of its size: that of pictures
 
 }  // namespace
 
@@ -14,14 +21,52 @@ SceneDocument::SceneDocument(std::filesystem::path file, const std::string& text
       mesh_(session_.mesh()),
       first_shape_(shape()) {}
 
-std::vector<DrawnSurface> SceneDocument::surfaces() const { return {mesh_.drawn(DrawnSurface::Role::other)}; }
+void SceneDocument::refresh() {
+  mesh_ = DrawnMesh(session_.mesh());
+  if (field_) cut();
+}
+
+void SceneDocument::choose(Show show) {
+  field_ = show == Show::field;
+  section_.reset();
+  if (field_) cut();
+}
+
+void SceneDocument::cut() {
+  const std::vector<Vec3>& points = session_.mesh().points;
+  Box box{points.front(), points.front()};
+  for (const Vec3& p : points) box = {box.lo.cwiseMin(p), box.hi.cwiseMax(p)};
+  const Vec3 around = Vec3::Constant(section_margin * box.size().maxCoeff());
+  box = {box.lo - around, box.hi + around};
+  SectionPlane plane;
+  box.size().minCoeff(&plane.k);
+  plane.at = box.centre()[plane.k];
+  FieldSection made = field_section(build_scene(session_.spec()).field, box, plane,
+                                    session_.coarse() ? coarse_section_cells : section_cells);
+  made.mesh.name = "field";
+  const double most = made.most > 0.0 ? made.most : -made.least;
+  section_ = Section{DrawnMesh(std::move(made.mesh)), std::move(made.outline), most};
+}
+
+std::vector<DrawnSurface> SceneDocument::surfaces() const {
+  return {(section_ ? section_->plane : mesh_).drawn(DrawnSurface::Role::other)};
+}
+
+std::vector<PolyLine> SceneDocument::lines() const {
+  return section_ ? section_->outline : std::vector<PolyLine>{};
+}
 
 std::vector<CombLine> SceneDocument::comb() const {
   return comb_of_sections({&mesh_.mesh()}, comb_planes, comb_hairs, nullptr);
 }
 
 std::vector<float> SceneDocument::values(std::size_t, Show show, const ShowOptions& options) const {
-  return mesh_.values(show, options);
+  if (!section_) return mesh_.values(show, options);
+  std::vector<float> values = section_->plane.values(show, options);
+  // The inside keeps half of the bar: values far outside may be any.
+  const auto most = static_cast<float>(section_->most);
+  for (float& x : values) x = std::isnan(x) ? -most : std::clamp(x, -most, most);
+  return values;
 }
 
 PictureInput SceneDocument::shape() const {
@@ -47,26 +92,26 @@ std::vector<std::string> SceneDocument::groups() const {
 Document::Outcome SceneDocument::set(std::size_t control, double value) {
   const double before = session_.controls().at(control).value;
   Outcome outcome = session_.set(control, value);
-  if (session_.controls().at(control).value != before) mesh_ = DrawnMesh(session_.mesh());
+  if (session_.controls().at(control).value != before) refresh();
   return outcome;
 }
 
 Document::Outcome SceneDocument::commit() {
   if (!session_.coarse()) return session_.commit();
   Outcome outcome = session_.commit();
-  mesh_ = DrawnMesh(session_.mesh());
+  refresh();
   return outcome;
 }
 
 bool SceneDocument::undo() {
   const bool done = session_.undo();
-  if (done) mesh_ = DrawnMesh(session_.mesh());
+  if (done) refresh();
   return done;
 }
 
 bool SceneDocument::redo() {
   const bool done = session_.redo();
-  if (done) mesh_ = DrawnMesh(session_.mesh());
+  if (done) refresh();
   return done;
 }
 

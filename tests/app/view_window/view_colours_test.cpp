@@ -1,4 +1,4 @@
-// Deviations in the window: while a job is shaped, and between two files.
+// Deviations in the window, while a job is shaped and between two files; the field of a scene.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,6 +55,27 @@ TEST(ViewDeviation, SaysWhyThereIsNone) {
   const Viewed alone = viewed(stl + " --width 480 --height 360", "key 9\n");
   ASSERT_EQ(alone.states.size(), 1u) << alone.err;
   EXPECT_THAT(message(alone, 0), HasSubstr("needs two files"));
+}
+
+TEST(ViewField, IsShownOnAPlaneThroughTheSolidAndFollowsTheSlider) {
+  const std::string scene = BLENDWRIGHT_SOURCE_DIR "/examples/scenes/s3-bridge.json";
+  const Folder folder;
+  const Viewed v = viewed(scene + " --width 640 --height 480",
+                          "key 0\nscreenshot " + (folder / "a.png").string() +
+                              "\ndrag left/move/0 -6\nscreenshot " + (folder / "b.png").string() + "\nkey 1\n");
+  ASSERT_EQ(v.states.size(), 5u) << v.err;
+  EXPECT_EQ(message(v, 0), "colours: field");
+  const Pixels a = read_png(folder / "a.png"), b = read_png(folder / "b.png");
+  const auto red = [](const Pixels& p) {  // warm: inside of the solid
+    std::size_t count = 0;
+    for (int y = 60; y < p.height; ++y)
+      for (int x = 0; x < p.width; ++x) count += p.at(x, y)[0] > p.at(x, y)[2] + 20;
+    return count;
+  };
+  EXPECT_GT(red(a), 1000u);
+  EXPECT_NE(red(a), red(b));
+  const Viewed job = viewed(specs + "coaxial-cylinders.json --width 480 --height 360", "key 0\n");
+  EXPECT_THAT(message(job, 0), HasSubstr("nothing here has the figure \"field\""));
 }
 
 }  // namespace
