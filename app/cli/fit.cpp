@@ -10,7 +10,6 @@
 #include "app/json/fit_reader.hpp"
 #include "app/json/fit_report.hpp"
 #include "app/json/job_reader.hpp"
-#include "app/report/fit_page.hpp"
 #include "app/report/report_file.hpp"
 #include "kernel/base/number_text.hpp"
 #include "kernel/base/parallel_for.hpp"
@@ -162,8 +161,7 @@ int fit_job(const FitCommand& command, const std::string& text, const Console& c
   const FitJobResult result = run_fit_job(text, job, options, run.progress());
   std::vector<std::string> notes;
   const std::vector<WrittenFile> files = write_files(command, result, notes);
-  if (!command.report.empty())
-    write_text_file(command.report, html(fit_page(job, result, files, command.called)));
+  if (!command.report.empty()) write_fit_report(command.report, job, result, files, command.called, notes);
   run.clear();
   const bool sound = verified(result.verified);
   if (!command.quiet) {

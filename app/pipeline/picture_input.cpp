@@ -125,16 +125,21 @@ void add_job_parts(PictureInput& input, bool primaries) {
   }
 }
 
-PictureInput of_job(const JobSpec& job, const PictureInputOptions& options, const Progress& progress) {
+PictureInput of_result(JobResult result, bool primaries) {
   PictureInput input;
   input.kind = PictureInput::Kind::job;
-  input.name = job.name;
-  input.unit = job.unit;
-  input.job = run_job(job, part_of(progress, 0.0, built));
-  input.notes = input.job->warnings;
-  progress.at(built, "meshing " + job.name);
-  add_job_parts(input, options.surfaces);
+  input.name = result.job.name;
+  input.unit = result.job.unit;
+  input.notes = result.warnings;
+  input.job = std::move(result);
+  add_job_parts(input, primaries);
   return input;
+}
+
+PictureInput of_job(const JobSpec& job, const PictureInputOptions& options, const Progress& progress) {
+  JobResult result = run_job(job, part_of(progress, 0.0, built));
+  progress.at(built, "meshing " + job.name);
+  return of_result(std::move(result), options.surfaces);
 }
 
 PictureInput of_scene(SceneFile scene, const PictureInputOptions& options, const Progress& progress) {
@@ -230,6 +235,8 @@ PictureInput of_json(const std::string& file, const PictureInputOptions& options
 }
 
 }  // namespace
+
+PictureInput picture_input(JobResult result) { return of_result(std::move(result), true); }
 
 PictureInput read_picture_input(const std::string& file, const PictureInputOptions& options,
                                 const Progress& progress) {

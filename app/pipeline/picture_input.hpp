@@ -42,6 +42,9 @@ struct PictureInputOptions {
   bool surfaces = true;
 };
 
+/// Of a job that was run.
+[[nodiscard]] PictureInput picture_input(JobResult result);
+
 /// "-": a job or a scene from standard input. Throws InputError (the file's problems; an extension that is
 /// not known), IoError, and what run_job and run_mesh_job throw.
 [[nodiscard]] PictureInput read_picture_input(const std::string& file, const PictureInputOptions& options,

@@ -15,8 +15,9 @@
 namespace blendwright {
 
 struct PictureJob {
-  std::string input;       ///< as read_picture_input() takes it
-  std::string to{};        ///< deviation: the other input
+  std::string input;  ///< as read_picture_input() takes it
+  std::string to{};   ///< deviation: the other input, or
+  std::shared_ptr<const PictureInput> other{};
   bool trimlines = false;  ///< plots along the trimlines instead of a view
   bool automatic = false;  ///< show the gap where there are blends, else the plain surface
   Show show = Show::plain;

@@ -352,7 +352,7 @@ PicturePlan plan_of_surface(PictureInput input, const PictureJob& given, const P
   set_up(picture, input, job);
   std::string caption = caption_of(input, job), other_text;
   if (job.show == Show::deviation) {
-    const PictureInput other = read_picture_input(job.to, job.reading, progress);
+    const PictureInput other = job.other ? *job.other : read_picture_input(job.to, job.reading, progress);
     if (input.unit && other.unit && *input.unit != *other.unit)
       throw InputError("--to", std::string("is in ") + name(*other.unit) + ", must be in " +
                                    name(*input.unit) + " as " + input.name +

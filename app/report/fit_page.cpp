@@ -68,7 +68,7 @@ PageSection section_of(const FittedBlend& blend, std::size_t index) {
 }  // namespace
 
 ReportPage fit_page(const JobSpec& job, const FitJobResult& result, const std::vector<WrittenFile>& files,
-                    const std::string& command) {
+                    const std::string& picture, const std::string& command) {
   const bool met = result.fulfilled(), joined = verified(result.verified);
   ReportPage page{
       .title = "Fit report: " + job.name,
@@ -77,6 +77,15 @@ ReportPage fit_page(const JobSpec& job, const FitJobResult& result, const std::v
                  (joined ? "; the fitted blends reach the continuity that was asked of them."
                          : "; the fitted blends do not reach the continuity that was asked of them."),
       .sections = {}};
+  if (!picture.empty())
+    page.sections.push_back(
+        {.title = "Shape",
+         .figures = {{.png = picture,
+                      .svg = {},
+                      .caption =
+                          "The fitted blends, coloured by how far they are from where the fit started, "
+                          "positive outwards.",
+                      .alternative = "Picture of the fitted shape and its deviation from the start"}}});
   for (std::size_t i = 0; i < result.blends.size(); ++i)
     page.sections.push_back(section_of(result.blends[i], i));
   if (!files.empty()) {

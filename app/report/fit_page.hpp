@@ -10,8 +10,10 @@
 namespace blendwright {
 
 /// Verdict, objectives, parameters, convergence, how well the shape is determined. Figures are those of the
-/// JSON report. `command`: how the program was called.
+/// JSON report. `picture`: bytes of the fitted shape's picture, may be empty; `command`: how the program was
+/// called.
 [[nodiscard]] ReportPage fit_page(const JobSpec& job, const FitJobResult& result,
-                                  const std::vector<WrittenFile>& files, const std::string& command);
+                                  const std::vector<WrittenFile>& files, const std::string& picture,
+                                  const std::string& command);
 
 }  // namespace blendwright

@@ -3,9 +3,11 @@
 #include <functional>
 
 #include "app/pipeline/mesh_pictures.hpp"
+#include "app/pipeline/picture_job.hpp"
 #include "app/pipeline/result_meshes.hpp"
 #include "app/pipeline/result_pictures.hpp"
 #include "app/report/blend_page.hpp"
+#include "app/report/fit_page.hpp"
 #include "app/report/mesh_page.hpp"
 #include "kernel/base/error.hpp"
 #include "kernel/base/text_file.hpp"
@@ -47,6 +49,21 @@ std::string blend_picture(const fs::path& report, const JobResult& result, const
   });
 }
 
+/// The fitted blends, coloured by how far they are from those that the fit started from.
+void draw_change(const fs::path& png, const JobSpec& job, const FitJobResult& result,
+                 std::vector<std::string>& notes) {
+  const Display display;
+  if (!display.available()) {
+    notes.push_back("the report has no picture: " + display.reason());
+    return;
+  }
+  PictureJob picture{.input = {}, .show = Show::deviation, .width = 1000, .height = 750};
+  PictureInput start = picture_input(run_job(job));
+  start.name = "the start";
+  picture.other = std::make_shared<const PictureInput>(std::move(start));
+  write_picture(png, *plan_picture(picture_input(result.verified), picture).picture, display);
+}
+
 }  // namespace
 
 void require_report_place(const fs::path& file, bool overwrite) {
@@ -62,6 +79,13 @@ void write_blend_report(const fs::path& file, const JobResult& result, const Job
                         const std::string& command, std::vector<std::string>& notes) {
   const std::string picture = blend_picture(file, result, outputs, notes);
   write_text_file(file, html(blend_page(result, outputs, picture, command)));
+}
+
+void write_fit_report(const fs::path& file, const JobSpec& job, const FitJobResult& result,
+                      const std::vector<WrittenFile>& files, const std::string& command,
+                      std::vector<std::string>& notes) {
+  const std::string picture = drawn(file, [&](const fs::path& png) { draw_change(png, job, result, notes); });
+  write_text_file(file, html(fit_page(job, result, files, picture, command)));
 }
 
 void write_mesh_report(const fs::path& file, const SceneFile& scene, const MeshResult& result,

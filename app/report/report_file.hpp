@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/pipeline/fit_job.hpp"
 #include "app/pipeline/mesh_job.hpp"
 #include "app/pipeline/write_outputs.hpp"
 #include "app/report/page.hpp"
@@ -18,6 +19,10 @@ void require_report_place(const std::filesystem::path& file, bool overwrite);
 /// own. Adds a note to `notes` when there is no display for it. Throws IoError, leaving no half-written file.
 void write_blend_report(const std::filesystem::path& file, const JobResult& result, const JobOutputs* outputs,
                         const std::string& command, std::vector<std::string>& notes);
+/// The same for a fit of `job`; the picture shows how far the blends moved.
+void write_fit_report(const std::filesystem::path& file, const JobSpec& job, const FitJobResult& result,
+                      const std::vector<WrittenFile>& files, const std::string& command,
+                      std::vector<std::string>& notes);
 /// The same for a mesh of a scene.
 void write_mesh_report(const std::filesystem::path& file, const SceneFile& scene, const MeshResult& result,
                        const std::string& command, std::vector<std::string>& notes);

@@ -173,7 +173,8 @@ TEST(FitVerb, WritesJobPlotAndReport) {
   EXPECT_THAT(run.out, HasSubstr("from/magnitude at 0.25"));
   EXPECT_THAT(content(folder / "plot.svg"), HasSubstr("<svg"));
   const std::string page = content(folder / "fit.html");
-  for (const char* part : {"Every target is met", "convergence-0", "least distance (mm)", "blendwright fit"})
+  for (const char* part : {"Every target is met", "convergence-0", "least distance (mm)", "blendwright fit",
+                           "data:image/png;base64,", "how far they are from where the fit started"})
     EXPECT_THAT(page, HasSubstr(part));
   // From its new folder the job still finds the obstacle, and there is nothing left to gain.
   const Outcome again = run_program("fit --json " + quoted_path(folder / "fitted.json"));
