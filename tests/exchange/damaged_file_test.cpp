@@ -3,12 +3,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 #include "kernel/base/error.hpp"
 #include "kernel/brep/step_part.hpp"
+#include "kernel/exchange/box_cells.hpp"
 #include "kernel/exchange/mesh_files.hpp"
 #include "kernel/exchange/step_file.hpp"
 #include "tests/exchange/joints.hpp"
@@ -136,6 +138,46 @@ TEST(DamagedFile, OfStepIsNamedWithItsFirstBrokenEntity) {
     EXPECT_NE(std::string(e.what()).find("is damaged: 1 entity cannot be read, #"), std::string::npos)
         << e.what();
   }
+}
+
+/// Every format that meshes and cells are written in.
+TEST(DamagedFile, OfAMeshIsReadOrRefusedAndNeverACrash) {
+  const ScratchFolder folder;
+  TriMesh mesh;
+  for (int i = 0; i < 12; ++i) {
+    const double t = 0.5 * i;
+    mesh.points.emplace_back(std::cos(t), std::sin(t), 0.1 * i);
+    mesh.normals.push_back(Vec3(std::sin(t), 0.3, std::cos(t)).normalized());
+    if (i > 1)
+      mesh.triangles.push_back({static_cast<std::uint32_t>(i - 2), static_cast<std::uint32_t>(i - 1),
+                                static_cast<std::uint32_t>(i)});
+  }
+  mesh.name = "strip";
+  write_vtp(folder / "m.vtp", mesh);
+  write_stl(folder / "m.stl", std::span(&mesh, 1));
+  write_obj(folder / "m.obj", std::span(&mesh, 1));
+  write_ply(folder / "m.ply", mesh);
+  write_vtu(folder / "m.vtu",
+            BoxCells{.name = "cells", .boxes = {{Vec3(0, 0, 0), Vec3(1, 1, 1)}}, .columns = {}});
+  int refusals = 0;
+  for (const std::string end : {".vtp", ".stl", ".obj", ".ply", ".vtu"}) {
+    const std::string text = content(folder / ("m" + end));
+    const auto file = folder / ("damaged" + end);
+    for_all(
+        [&](Rng& rng) {
+          write(file, damaged(text, 0, false, rng));
+          const int how = ending([&] {
+            if (end == ".vtu")
+              (void)read_vtu(file);
+            else
+              (void)read_mesh(file);
+          });
+          EXPECT_LE(how, refused) << end;
+          refusals += how == refused;
+        },
+        40);
+  }
+  EXPECT_GT(refusals, 40);
 }
 
 }  // namespace
