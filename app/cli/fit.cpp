@@ -160,8 +160,11 @@ int fit_job(const FitCommand& command, const std::string& text, const Console& c
   const FitJobOptions options = options_of(command, job);
   const FitJobResult result = run_fit_job(text, job, options, run.progress());
   std::vector<std::string> notes;
-  const std::vector<WrittenFile> files = write_files(command, result, notes);
-  if (!command.report.empty()) write_fit_report(command.report, job, result, files, command.called, notes);
+  std::vector<WrittenFile> files = write_files(command, result, notes);
+  if (!command.report.empty()) {
+    write_fit_report(command.report, job, result, files, command.called, notes);
+    files.push_back({command.report, "report", std::filesystem::file_size(command.report)});
+  }
   run.clear();
   const bool sound = verified(result.verified);
   if (!command.quiet) {

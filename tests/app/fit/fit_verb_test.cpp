@@ -171,6 +171,7 @@ TEST(FitVerb, WritesJobPlotAndReport) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("fit-clearance.json: 1 blend fitted, all targets met, joints verified\n"));
   EXPECT_THAT(run.out, HasSubstr("from/magnitude at 0.25"));
+  EXPECT_THAT(run.out, HasSubstr("fit.html"));
   EXPECT_THAT(content(folder / "plot.svg"), HasSubstr("<svg"));
   const std::string page = content(folder / "fit.html");
   for (const char* part : {"Every target is met", "convergence-0", "least distance (mm)", "blendwright fit",
