@@ -1,4 +1,6 @@
 // Deviations in the window: of two documents from each other, of one from its shape when it was opened.
+#include <algorithm>
+
 #include "app/pipeline/picture_deviation.hpp"
 #include "app/view/window/controller.hpp"
 #include "kernel/base/error.hpp"
@@ -12,7 +14,27 @@ struct MeasuredShape {
   DeviationFacts facts;
 };
 
-MeasuredShape measured(PictureInput shape, const PictureInput& to) {
+/// Pieces of the same name are compared with each other, as `compare` does; without any, everything with
+/// everything. What is left out keeps its place, empty.
+void keep_common(PictureInput& a, PictureInput& b) {
+  const auto has = [](const PictureInput& input, const std::string& name) {
+    return std::any_of(input.parts.begin(), input.parts.end(), [&](const PicturePart& p) {
+      return !p.mesh.triangles.empty() && p.mesh.name == name;
+    });
+  };
+  const PictureInput first = a;
+  const bool common = std::any_of(first.parts.begin(), first.parts.end(), [&](const PicturePart& p) {
+    return !p.mesh.triangles.empty() && has(b, p.mesh.name);
+  });
+  if (!common) return;
+  for (PicturePart& p : a.parts)
+    if (!has(b, p.mesh.name)) p.mesh = {};
+  for (PicturePart& p : b.parts)
+    if (!has(first, p.mesh.name)) p.mesh = {};
+}
+
+MeasuredShape measured(PictureInput shape, PictureInput to) {
+  keep_common(shape, to);
   MeasuredShape m;
   m.facts = add_deviation(shape, to);
   for (const PicturePart& part : shape.parts) {
