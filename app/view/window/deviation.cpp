@@ -67,7 +67,7 @@ std::vector<std::vector<float>> Controller::colour_values(std::size_t index) con
 
 void Controller::measure_deviations() {
   deviations_.clear();
-  if (!deviation_target(state_.active))
+  if (documents_.size() < 2 && !document().first_shape())
     return say("a deviation needs two files, or one that is changed here", true);
   const std::string from =
       documents_.size() > 1 ? documents_[1 - state_.active]->file().filename().string() : "what was opened";
