@@ -105,6 +105,9 @@ double distance_to(const std::vector<Target>& targets, const Vec3& p) {
 }  // namespace
 
 DeviationFacts add_deviation(PictureInput& input, const PictureInput& other, const Progress& progress) {
+  if (input.unit && other.unit && *input.unit != *other.unit)
+    throw InputError("--to", std::string("is in ") + name(*other.unit) + ", must be in " + name(*input.unit) +
+                                 " as " + input.name + " is, since lengths are compared");
   const std::vector<Target> targets = targets_of(other);
   const ScalarField* field = other.scene ? &other.scene->scene.field : nullptr;
   DeviationFacts facts;

@@ -16,7 +16,8 @@ struct DeviationFacts {
 /// Adds the column "deviation" to the parts of `input`: the distance of each point to the nearest place of
 /// `other`, positive on the side that its normals point to. Where the other has surfaces, the nearest place
 /// is found on them, starting from the nearest triangle; near a scene's solid the field says it,
-/// -inside/|gradient|. Throws InputError when `other` has no surface or no normals.
+/// -inside/|gradient|. Throws InputError when `other` has no surface, no normals
+/// or another unit.
 DeviationFacts add_deviation(PictureInput& input, const PictureInput& other, const Progress& progress = {});
 
 }  // namespace blendwright

@@ -353,10 +353,6 @@ PicturePlan plan_of_surface(PictureInput input, const PictureJob& given, const P
   std::string caption = caption_of(input, job), other_text;
   if (job.show == Show::deviation) {
     const PictureInput other = job.other ? *job.other : read_picture_input(job.to, job.reading, progress);
-    if (input.unit && other.unit && *input.unit != *other.unit)
-      throw InputError("--to", std::string("is in ") + name(*other.unit) + ", must be in " +
-                                   name(*input.unit) + " as " + input.name +
-                                   " is, since lengths are compared");
     const DeviationFacts facts = add_deviation(input, other, progress);
     const std::string unit = length_unit(input);
     other_text = "largest deviation " + with_unit(figure_text(facts.worst), unit) + " from " + other.name;

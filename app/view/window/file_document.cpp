@@ -102,6 +102,7 @@ PickedPoint DrawnMesh::picked(const SurfaceHit& hit) const {
 
 FileDocument::FileDocument(std::filesystem::path file, PictureInput input)
     : file_(std::move(file)), lines_(std::move(input.lines)) {
+  named_unit_ = input.unit;
   unit_ = input.unit.value_or(LengthUnit::millimetre);
   for (PicturePart& part : input.parts) {
     meshes_.emplace_back(std::move(part.mesh));
@@ -133,7 +134,7 @@ std::vector<float> FileDocument::values(std::size_t surface, Show show, const Sh
 PictureInput FileDocument::shape() const {
   PictureInput input;
   input.name = file_.stem().string();
-  input.unit = unit_;
+  input.unit = named_unit_;
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     PicturePart part{PicturePart::Role::other, meshes_[i].mesh(), known_[i]};
     if (roles_[i] == DrawnSurface::Role::primary) part.mesh = {};  // keeps the place

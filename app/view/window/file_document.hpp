@@ -39,6 +39,7 @@ class FileDocument : public Document {
  private:
   std::filesystem::path file_;
   LengthUnit unit_ = LengthUnit::millimetre;
+  std::optional<LengthUnit> named_unit_;  ///< none: the file says nothing of it
   std::vector<DrawnMesh> meshes_;
   std::vector<DrawnSurface::Role> roles_;
   std::vector<std::optional<Surface>> known_;  ///< what the meshes are of

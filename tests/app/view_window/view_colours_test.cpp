@@ -61,6 +61,14 @@ TEST(ViewDeviation, SaysWhyThereIsNone) {
   const Viewed alone = viewed(stl + " --width 480 --height 360", "key 9\n");
   ASSERT_EQ(alone.states.size(), 1u) << alone.err;
   EXPECT_THAT(message(alone, 0), HasSubstr("needs two files"));
+  std::string text = content(specs + "coaxial-cylinders.json");
+  text.insert(text.find('{') + 1, "\"unit\": \"in\",");
+  write(folder / "inch.json", text);
+  const Viewed mixed = viewed(
+      specs + "coaxial-cylinders.json " + quoted_path(folder / "inch.json") + " --width 480 --height 360",
+      "key 9\n");
+  ASSERT_EQ(mixed.states.size(), 1u) << mixed.err;
+  EXPECT_THAT(message(mixed, 0), HasSubstr(", must be in mm as "));
 }
 
 TEST(ViewField, IsShownOnAPlaneThroughTheSolidAndFollowsTheSlider) {
